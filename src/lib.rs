@@ -1,0 +1,4 @@
+//! checkdam: skeleton.
+pub mod case;
+pub mod output;
+pub mod plot;
