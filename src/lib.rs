@@ -1,4 +1,19 @@
 //! checkdam: skeleton.
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod body;
+pub mod boundary;
 pub mod case;
+pub mod constitutive;
+pub mod grid;
+pub mod lanes;
+pub mod layout;
+pub mod ledger;
+pub mod momentum;
 pub mod output;
 pub mod plot;
+pub mod shape;
+pub mod simulation;
+pub mod timestep;
+pub mod transfer;

@@ -1,0 +1,217 @@
+//! Material points, in blocks of eight.
+//!
+//! The points of a body share mass, reference volume and law; everything else is stored as structure of arrays inside
+//! [`Block`]s, which the [`crate::layout`] keeps sorted by cell in bands of grid columns.
+
+use crate::constitutive::{AnyLaw, Law, PointState, Stress};
+use crate::lanes::{LANES, Lane};
+
+/// Eight material points. Fields are parallel arrays.
+#[derive(Debug, Clone, PartialEq)]
+#[repr(C, align(64))]
+pub struct Block {
+    /// Position, m.
+    pub x: [Lane; 2],
+    /// Velocity, m/s.
+    pub v: [Lane; 2],
+    /// Displacement of the current step, m: applied when the stress has been updated.
+    pub dx: [Lane; 2],
+    /// Cauchy stress xx, yy, zz, xy in Pa, tension positive.
+    pub stress: [Lane; 4],
+    /// Current over reference volume, J.
+    pub volume_ratio: Lane,
+    /// Opened volumetric strain, see [`PointState::opened`].
+    pub opened: Lane,
+    /// Equivalent plastic shear strain, see [`PointState::plastic_shear`].
+    pub plastic_shear: Lane,
+    /// Number of the point within its body, unchanged by sorting.
+    pub id: [u32; LANES],
+}
+
+impl Default for Block {
+    fn default() -> Self {
+        const ZERO: Lane = [0.0; LANES];
+        Self {
+            x: [ZERO; 2],
+            v: [ZERO; 2],
+            dx: [ZERO; 2],
+            stress: [ZERO; 4],
+            volume_ratio: [1.0; LANES],
+            opened: ZERO,
+            plastic_shear: ZERO,
+            id: [u32::MAX; LANES],
+        }
+    }
+}
+
+/// One material point, as gauges and writers see it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Particle {
+    /// Number within its body.
+    pub id: u32,
+    /// Position, m.
+    pub x: [f64; 2],
+    /// Velocity, m/s.
+    pub v: [f64; 2],
+    /// Stress and history.
+    pub state: PointState,
+    /// Current over reference volume.
+    pub volume_ratio: f64,
+}
+
+impl Particle {
+    /// A stress-free point at rest in its reference state.
+    pub fn at_rest(id: u32, x: [f64; 2]) -> Self {
+        Self { id, x, v: [0.0; 2], state: PointState::default(), volume_ratio: 1.0 }
+    }
+
+    /// Speed, m/s.
+    pub fn speed(&self) -> f64 {
+        (self.v[0] * self.v[0] + self.v[1] * self.v[1]).sqrt()
+    }
+}
+
+impl Block {
+    /// Reads one lane.
+    #[inline]
+    pub fn get(&self, l: usize) -> Particle {
+        Particle {
+            id: self.id[l],
+            x: [self.x[0][l], self.x[1][l]],
+            v: [self.v[0][l], self.v[1][l]],
+            state: PointState {
+                stress: Stress {
+                    xx: self.stress[0][l],
+                    yy: self.stress[1][l],
+                    zz: self.stress[2][l],
+                    xy: self.stress[3][l],
+                },
+                opened: self.opened[l],
+                plastic_shear: self.plastic_shear[l],
+            },
+            volume_ratio: self.volume_ratio[l],
+        }
+    }
+
+    /// Writes one lane.
+    #[inline]
+    pub fn set(&mut self, l: usize, p: &Particle) {
+        for d in 0..2 {
+            self.x[d][l] = p.x[d];
+            self.v[d][l] = p.v[d];
+            self.dx[d][l] = 0.0;
+        }
+        let s = &p.state.stress;
+        for (lane, value) in self.stress.iter_mut().zip([s.xx, s.yy, s.zz, s.xy]) {
+            lane[l] = value;
+        }
+        self.volume_ratio[l] = p.volume_ratio;
+        self.opened[l] = p.state.opened;
+        self.plastic_shear[l] = p.state.plastic_shear;
+        self.id[l] = p.id;
+    }
+}
+
+/// Material points of one body, in order, the last block filled up with copies that are never counted.
+#[derive(Debug, Clone, Default)]
+pub struct Points {
+    blocks: Vec<Block>,
+    len: usize,
+}
+
+impl Points {
+    /// Number of material points.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Forgets all points, keeping the memory.
+    pub fn clear(&mut self) {
+        self.blocks.clear();
+        self.len = 0;
+    }
+
+    /// Makes room for `len` points, to be written with [`Points::set`].
+    pub fn resize(&mut self, len: usize) {
+        self.blocks.resize_with(len.div_ceil(LANES), Block::default);
+        self.len = len;
+    }
+
+    /// Writes point `i`.
+    pub fn set(&mut self, i: usize, p: &Particle) {
+        self.blocks[i / LANES].set(i % LANES, p);
+    }
+
+    /// Appends a point.
+    pub fn push(&mut self, p: &Particle) {
+        self.resize(self.len + 1);
+        self.set(self.len - 1, p);
+    }
+
+    /// Lets the unused lanes of the last block copy a real point, so that vector loops meet only sound numbers.
+    pub fn pad(&mut self) {
+        let used = self.len % LANES;
+        if used > 0
+            && let Some(last) = self.blocks.last_mut()
+        {
+            let p = last.get(used - 1);
+            for l in used..LANES {
+                last.set(l, &p);
+                last.id[l] = u32::MAX;
+            }
+        }
+    }
+
+    /// The blocks with the number of real points in each.
+    #[inline(always)]
+    pub fn blocks(&self) -> impl Iterator<Item = (&Block, usize)> {
+        let len = self.len;
+        self.blocks.iter().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
+    }
+
+    /// The blocks, mutable, with the number of real points in each.
+    #[inline(always)]
+    pub fn blocks_mut(&mut self) -> impl Iterator<Item = (&mut Block, usize)> {
+        let len = self.len;
+        self.blocks.iter_mut().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
+    }
+
+    /// All points in order.
+    pub fn iter(&self) -> impl Iterator<Item = Particle> {
+        self.blocks().flat_map(|(b, n)| (0..n).map(|l| b.get(l)))
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.blocks.capacity() * size_of::<Block>()
+    }
+}
+
+/// What the points of one body have in common.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Name, for reports.
+    pub name: String,
+    /// Constitutive law.
+    pub law: AnyLaw,
+    /// Mass of one material point, kg.
+    pub point_mass: f64,
+    /// Reference volume of one material point, m3.
+    pub point_volume: f64,
+    /// Material points per cell and direction at the start.
+    pub points_per_direction: usize,
+    /// Distance between material points at the start, m.
+    pub point_spacing: f64,
+}
+
+impl Body {
+    /// Speed of the P-wave at the reference density, m/s.
+    pub fn p_wave_speed(&self) -> f64 {
+        (self.law.p_wave_modulus() * self.point_volume / self.point_mass).sqrt()
+    }
+}

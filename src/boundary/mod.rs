@@ -1,0 +1,240 @@
+//! Rigid boundaries: planes, walls of finite height at any angle to the grid, and gates.
+//!
+//! A boundary acts on the nodes inside it: material may leave them but not press into them, and slides on them with Coulomb
+//! friction. [`Boundary`] is the geometry, [`nodes`] the law at a node.
+
+pub mod nodes;
+
+use nalgebra::Vector2;
+
+/// What resists sliding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Friction {
+    /// Nothing.
+    Smooth,
+    /// At most the coefficient times the normal force.
+    Coulomb(f64),
+    /// Whatever is needed, as long as the material presses on the boundary.
+    Rough,
+}
+
+impl Friction {
+    /// The Coulomb coefficient; infinite where the boundary is rough.
+    pub fn coefficient(self) -> f64 {
+        match self {
+            Friction::Smooth => 0.0,
+            Friction::Coulomb(mu) => mu,
+            Friction::Rough => f64::INFINITY,
+        }
+    }
+}
+
+/// How a gate opens once it is released.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Opening {
+    /// It is gone at once.
+    Vanish,
+    /// It is lifted at a speed (m/s) until `opening` (m) is free below it; both may be infinite.
+    Lift {
+        /// m/s.
+        speed: f64,
+        /// m.
+        opening: f64,
+    },
+}
+
+/// Shape of a boundary.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Solid {
+    /// Everything on the side of `point` that the normal points away from.
+    HalfSpace {
+        /// A point of the surface, m.
+        point: Vector2<f64>,
+    },
+    /// A slab that rises from `foot` along the tangent; its face looks along the normal.
+    Slab {
+        /// Lower end of the face, m.
+        foot: Vector2<f64>,
+        /// Length of the face, m.
+        height: f64,
+        /// Extent behind the face, m.
+        thickness: f64,
+        /// Whether only the face acts (gates), or also crest and back.
+        face_only: bool,
+    },
+}
+
+/// One rigid boundary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boundary {
+    /// Name, for reports.
+    pub name: String,
+    /// Shape.
+    pub solid: Solid,
+    /// Unit normal of the face, into the material.
+    pub normal: Vector2<f64>,
+    /// Unit vector along the face: from foot to crest; for a plane, the normal turned clockwise.
+    pub tangent: Vector2<f64>,
+    /// What resists sliding.
+    pub friction: Friction,
+    /// Velocity of the boundary, m/s. Moves the solid, too.
+    pub velocity: Vector2<f64>,
+    /// For a gate: how it opens.
+    pub opening: Option<Opening>,
+    /// Free height below a gate now, m; infinite when it is gone.
+    pub free_below: f64,
+    /// Whether a gate has been released.
+    pub released: bool,
+}
+
+/// Where a node lies with respect to a boundary that holds it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Unit normal at the node, into the material.
+    pub normal: [f64; 2],
+    /// Position along the face from its foot (walls) or from the reference point (planes), m.
+    pub along: f64,
+}
+
+impl Boundary {
+    /// An infinite plane through `point` with outward unit normal `normal`.
+    pub fn plane(name: &str, point: Vector2<f64>, normal: Vector2<f64>, friction: Friction) -> Self {
+        let normal = normal.normalize();
+        Self {
+            name: name.into(),
+            solid: Solid::HalfSpace { point },
+            normal,
+            tangent: Vector2::new(normal.y, -normal.x),
+            friction,
+            velocity: Vector2::zeros(),
+            opening: None,
+            free_below: 0.0,
+            released: false,
+        }
+    }
+
+    /// A wall from `foot` along the unit vector `tangent`, with the material on its left, seen from foot to crest.
+    pub fn wall(
+        name: &str,
+        foot: Vector2<f64>,
+        tangent: Vector2<f64>,
+        height: f64,
+        thickness: f64,
+        friction: Friction,
+    ) -> Self {
+        let tangent = tangent.normalize();
+        Self {
+            solid: Solid::Slab { foot, height, thickness, face_only: false },
+            normal: Vector2::new(-tangent.y, tangent.x),
+            tangent,
+            ..Self::plane(name, foot, tangent, friction)
+        }
+    }
+
+    /// The same wall with the material on its right.
+    pub fn facing_right(mut self) -> Self {
+        self.normal = Vector2::new(self.tangent.y, -self.tangent.x);
+        self
+    }
+
+    /// A wall that opens when released.
+    pub fn gate(self, opening: Opening) -> Self {
+        let solid = match self.solid {
+            Solid::Slab { foot, height, thickness, .. } => Solid::Slab { foot, height, thickness, face_only: true },
+            plane @ Solid::HalfSpace { .. } => plane,
+        };
+        Self { solid, opening: Some(opening), ..self }
+    }
+
+    /// Reference point: the foot of a wall, the given point of a plane.
+    pub fn foot(&self) -> Vector2<f64> {
+        match self.solid {
+            Solid::HalfSpace { point } => point,
+            Solid::Slab { foot, .. } => foot,
+        }
+    }
+
+    /// Height of a wall, m; infinite for a plane.
+    pub fn height(&self) -> f64 {
+        match self.solid {
+            Solid::HalfSpace { .. } => f64::INFINITY,
+            Solid::Slab { height, .. } => height,
+        }
+    }
+
+    /// Distance from the (infinitely extended) face, positive on the material's side, and position along it; m.
+    pub fn face_coordinates(&self, x: [f64; 2]) -> (f64, f64) {
+        let r = Vector2::from(x) - self.foot();
+        (r.dot(&self.normal), r.dot(&self.tangent))
+    }
+
+    /// Depth of a point inside the solid, m; zero or less outside.
+    pub fn depth(&self, x: [f64; 2]) -> f64 {
+        let (d, s) = self.face_coordinates(x);
+        match self.solid {
+            Solid::HalfSpace { .. } => -d,
+            Solid::Slab { height, thickness, .. } => (-d).min(thickness + d).min(s - self.free_below).min(height - s),
+        }
+    }
+
+    /// How the boundary holds a node at `x`, if it does. `tolerance` (m) decides what lies on a surface; `buried` says that the
+    /// node lies inside a plane, where walls continue below their foot.
+    pub fn hold(&self, x: [f64; 2], tolerance: f64, buried: bool) -> Option<Contact> {
+        let (d, s) = self.face_coordinates(x);
+        let normal = match self.solid {
+            Solid::HalfSpace { .. } => (d <= tolerance).then_some(self.normal)?,
+            Solid::Slab { height, thickness, face_only, .. } => {
+                let bottom = match () {
+                    () if self.free_below > 0.0 => self.free_below,
+                    () if buried => f64::NEG_INFINITY,
+                    () => 0.0,
+                };
+                if d > tolerance || d < -thickness - tolerance || s < bottom - tolerance || s > height + tolerance {
+                    return None;
+                }
+                let (to_face, to_back, to_crest) = (-d, thickness + d, height - s);
+                if face_only || to_face <= to_back.min(to_crest) {
+                    self.normal
+                } else if to_crest <= to_back {
+                    self.tangent
+                } else {
+                    -self.normal
+                }
+            }
+        };
+        Some(Contact { normal: normal.into(), along: s })
+    }
+
+    /// Opens a released gate by what it moves in `dt`, and moves a boundary that has a velocity.
+    pub fn advance(&mut self, dt: f64) {
+        if self.released
+            && let Some(Opening::Lift { speed, opening }) = self.opening
+        {
+            let lifted = if speed.is_finite() { self.free_below + speed * dt } else { opening };
+            self.free_below = lifted.min(opening);
+            if self.free_below >= self.height() {
+                self.free_below = f64::INFINITY;
+            }
+        }
+        let shift = self.velocity * dt;
+        match &mut self.solid {
+            Solid::HalfSpace { point } => *point += shift,
+            Solid::Slab { foot, .. } => *foot += shift,
+        }
+    }
+
+    /// Releases a gate; does nothing to other boundaries.
+    pub fn release(&mut self) {
+        self.released = self.opening.is_some();
+        match self.opening {
+            Some(Opening::Vanish) => self.free_below = f64::INFINITY,
+            Some(Opening::Lift { .. }) => self.advance(0.0),
+            None => {}
+        }
+    }
+
+    /// Whether the boundary holds nothing any more (a gate that is gone).
+    pub fn is_gone(&self) -> bool {
+        self.free_below == f64::INFINITY
+    }
+}

@@ -1,0 +1,193 @@
+//! The contact law at a node.
+//!
+//! A boundary answers the motion that a node would have without it: an impulse along its normal that stops approach and never
+//! holds back, and one along its face that stops sliding, limited by the friction coefficient times the normal impulse. A node
+//! held by several boundaries finds all impulses together by projected Gauss-Seidel iteration (Jean 1999), so that a corner is
+//! no special case.
+
+use super::Boundary;
+use crate::grid::ActiveGrid;
+
+/// Iterations for a node held by more than one boundary; perpendicular faces need two.
+const SWEEPS: usize = 24;
+
+/// What a boundary does to one node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hold {
+    /// Index of the node.
+    pub node: u32,
+    /// Index of the boundary.
+    pub boundary: u32,
+    /// Unit normal, into the material.
+    pub normal: [f64; 2],
+    /// Position along the face, m.
+    pub along: f64,
+    /// Lever arm from the boundary's foot, m.
+    pub arm: [f64; 2],
+    /// Friction coefficient.
+    friction: f64,
+    /// Velocity of the boundary, m/s.
+    wall: [f64; 2],
+    /// Normal and tangential impulse of the step, N s.
+    impulse: [f64; 2],
+    /// How the node moved in the last step.
+    state: HoldState,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum HoldState {
+    Apart,
+    Slipping,
+    Sticking,
+}
+
+/// What a boundary received from, or did to, the material in one step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tally {
+    /// Impulse on the material, N s.
+    pub impulse: [f64; 2],
+    /// Moment of that impulse about the boundary's foot, counter-clockwise, N m s.
+    pub moment: f64,
+    /// Work of the friction impulses on the material, J (negative when it dissipates).
+    pub friction_work: f64,
+    /// Work of the normal impulses on the material, J.
+    pub normal_work: f64,
+}
+
+impl Tally {
+    /// Adds another tally.
+    pub fn add(&mut self, other: &Tally) {
+        self.impulse[0] += other.impulse[0];
+        self.impulse[1] += other.impulse[1];
+        self.moment += other.moment;
+        self.friction_work += other.friction_work;
+        self.normal_work += other.normal_work;
+    }
+}
+
+/// Lists every node of `grid` held by a boundary, in the order of the nodes.
+pub fn find_holds(boundaries: &[Boundary], grid: &ActiveGrid, holds: &mut Vec<Hold>) {
+    holds.clear();
+    let tolerance = 1e-6 * grid.spacing;
+    for (node, x) in grid.nodes() {
+        let buried = boundaries.iter().any(|b| b.height().is_infinite() && b.depth(x) >= -tolerance);
+        for (index, b) in boundaries.iter().enumerate() {
+            if let Some(contact) = b.hold(x, tolerance, buried) {
+                let foot = b.foot();
+                holds.push(Hold {
+                    node: node as u32,
+                    boundary: index as u32,
+                    normal: contact.normal,
+                    along: contact.along,
+                    arm: [x[0] - foot.x, x[1] - foot.y],
+                    friction: b.friction.coefficient(),
+                    wall: b.velocity.into(),
+                    impulse: [0.0; 2],
+                    state: HoldState::Slipping,
+                });
+            }
+        }
+    }
+}
+
+impl Hold {
+    /// The vector impulse of the step on the material, N s.
+    pub fn vector_impulse(&self) -> [f64; 2] {
+        let ([nx, ny], [n, t]) = (self.normal, self.impulse);
+        [nx * n + ny * t, ny * n - nx * t]
+    }
+
+    /// One Gauss-Seidel visit: brings the accumulated impulses up to date with velocity `v` of a node of mass `m`.
+    #[inline]
+    fn relax(&mut self, m: f64, v: &mut [f64; 2]) {
+        let [nx, ny] = self.normal;
+        let rel = [v[0] - self.wall[0], v[1] - self.wall[1]];
+        let approach = rel[0] * nx + rel[1] * ny;
+        let normal = (self.impulse[0] - m * approach).max(0.0);
+        let change = (normal - self.impulse[0]) / m;
+        self.impulse[0] = normal;
+        let sliding = rel[0] * ny - rel[1] * nx;
+        let stick = self.impulse[1] - m * sliding;
+        // Smooth boundaries and open contacts have no friction; 0 x infinity must not arise.
+        let limit = if normal > 0.0 { self.friction * normal } else { 0.0 };
+        let tangential = stick.clamp(-limit, limit);
+        self.state = match () {
+            () if normal <= 0.0 => HoldState::Apart,
+            () if limit > 0.0 && stick.abs() <= limit => HoldState::Sticking,
+            () => HoldState::Slipping,
+        };
+        let shift = (tangential - self.impulse[1]) / m;
+        self.impulse[1] = tangential;
+        v[0] += change * nx + shift * ny;
+        v[1] += change * ny - shift * nx;
+    }
+
+    fn tally(&self, mean: [f64; 2]) -> Tally {
+        let ([nx, ny], [n, t]) = (self.normal, self.impulse);
+        let impulse = self.vector_impulse();
+        Tally {
+            impulse,
+            moment: self.arm[0] * impulse[1] - self.arm[1] * impulse[0],
+            friction_work: t * (mean[0] * ny - mean[1] * nx),
+            normal_work: n * (mean[0] * nx + mean[1] * ny),
+        }
+    }
+}
+
+/// Solves the contact of one node of mass `m` with all that holds it: `old` is the velocity before the step, `v` the velocity
+/// it would have, which is replaced. Adds to the tally of each boundary.
+///
+/// Work is impulse times the mean of the velocities before and after the step, so that the works of all agents add up to the
+/// change of the node's kinetic energy exactly.
+pub fn solve(holds: &mut [Hold], boundaries: &[Boundary], m: f64, old: [f64; 2], v: &mut [f64; 2], tallies: &mut [Tally]) {
+    let mut sweeps = if holds.len() > 1 { SWEEPS } else { 1 };
+    for hold in holds.iter_mut() {
+        hold.impulse = [0.0; 2];
+    }
+    while sweeps > 0 {
+        for hold in holds.iter_mut() {
+            if hold.is_active(boundaries) {
+                hold.relax(m, v);
+            } else {
+                hold.state = HoldState::Apart;
+            }
+        }
+        sweeps -= 1;
+    }
+    let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
+    for hold in holds.iter() {
+        if hold.state != HoldState::Apart {
+            tallies[hold.boundary as usize].add(&hold.tally(mean));
+        }
+    }
+}
+
+/// Applies to a velocity what [`solve`] decided: nothing presses inwards, sticking nodes move with the boundary. For velocity
+/// fields that only strain the material, so no impulse is counted.
+pub fn project(holds: &[Hold], v: &mut [f64; 2]) {
+    let sweeps = if holds.len() > 1 { 4 } else { 1 };
+    for _ in 0..sweeps {
+        for hold in holds {
+            let [nx, ny] = hold.normal;
+            let approach = (v[0] - hold.wall[0]) * nx + (v[1] - hold.wall[1]) * ny;
+            match hold.state {
+                HoldState::Apart => {}
+                HoldState::Sticking => *v = hold.wall,
+                HoldState::Slipping => {
+                    let stop = approach.min(0.0);
+                    v[0] -= stop * nx;
+                    v[1] -= stop * ny;
+                }
+            }
+        }
+    }
+}
+
+impl Hold {
+    /// A gate holds only the nodes above its lower edge.
+    #[inline]
+    fn is_active(&self, boundaries: &[Boundary]) -> bool {
+        let free = boundaries[self.boundary as usize].free_below;
+        free <= 0.0 || self.along >= free
+    }
+}

@@ -1,0 +1,60 @@
+//! Isotropic linear elasticity in rate form with the Jaumann rate.
+
+use super::{Increment, Law, PointState, Stress, cayley, midpoint_work};
+
+/// Isotropic linear elasticity in rate form: the Jaumann rate of the Cauchy stress is C : D.
+///
+/// Stress-strain response is that of the logarithmic strain as long as the principal axes do not turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearElastic {
+    /// Bulk modulus K in Pa.
+    pub bulk: f64,
+    /// Shear modulus G in Pa.
+    pub shear: f64,
+}
+
+impl LinearElastic {
+    /// From Young's modulus E > 0 (Pa) and Poisson's ratio -1 < nu < 1/2.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self { bulk: young / (3.0 * (1.0 - 2.0 * poisson)), shear: young / (2.0 * (1.0 + poisson)) }
+    }
+
+    /// Adds C : de for a volumetric increment that may differ from the trace of `d` (see the void tracking of Drucker-Prager).
+    #[inline(always)]
+    pub(super) fn strain(&self, s: &Stress, d: &Increment, volumetric: f64) -> Stress {
+        let third = d.volumetric() * (1.0 / 3.0);
+        let p = self.bulk * volumetric;
+        let two_g = 2.0 * self.shear;
+        Stress {
+            xx: s.xx + (p + two_g * (d.xx - third)),
+            yy: s.yy + (p + two_g * (d.yy - third)),
+            zz: s.zz + (p - two_g * third),
+            xy: s.xy + two_g * d.xy,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn energy(&self, s: &Stress) -> f64 {
+        let m = s.mean();
+        s.j2() / (2.0 * self.shear) + m * m / (2.0 * self.bulk)
+    }
+}
+
+impl Law for LinearElastic {
+    #[inline(always)]
+    fn update(&self, state: &mut PointState, d: &Increment) -> f64 {
+        let (c, s) = cayley(d.spin);
+        let before = state.stress.rotated(c, s);
+        let after = self.strain(&before, d, d.volumetric());
+        state.stress = after.rotated(c, s);
+        midpoint_work(&before, &after, d)
+    }
+
+    fn stored_energy(&self, stress: &Stress) -> f64 {
+        self.energy(stress)
+    }
+
+    fn p_wave_modulus(&self) -> f64 {
+        self.bulk + 4.0 / 3.0 * self.shear
+    }
+}

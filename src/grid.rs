@@ -1,0 +1,100 @@
+//! The active part of the uniform background grid.
+//!
+//! Nodes are stored column by column (a column is a line of nodes along y), and only the rows that material can reach. Memory
+//! and work follow the material, wherever it is; the grid itself has no bounds. The three nodes of a stencil column lie side by
+//! side in memory.
+
+/// Cell size and where node (0, 0) lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lattice {
+    /// Cell size h, m.
+    pub spacing: f64,
+    /// Position of node (0, 0), m.
+    pub origin: [f64; 2],
+}
+
+impl Lattice {
+    /// Position of a node, m.
+    pub fn position(&self, i: i64, j: i64) -> [f64; 2] {
+        [self.origin[0] + i as f64 * self.spacing, self.origin[1] + j as f64 * self.spacing]
+    }
+}
+
+/// One column of active nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Column {
+    /// Index of its first node among all active nodes.
+    pub start: u32,
+    /// First row, counted from [`ActiveGrid::first`].
+    pub row: i32,
+    /// Number of rows.
+    pub rows: u32,
+}
+
+/// Nodes that material can reach until the next sort, and what the step computes on them.
+#[derive(Debug, Clone, Default)]
+pub struct ActiveGrid {
+    /// Global index of the first column and of row 0.
+    pub first: [i64; 2],
+    /// Position of the node at `first`, m.
+    pub corner: [f64; 2],
+    /// One over the cell size, 1/m.
+    pub inverse_spacing: f64,
+    /// Cell size, m.
+    pub spacing: f64,
+    /// Active columns, from left to right without gaps; a column may be empty.
+    pub columns: Vec<Column>,
+    /// Nodal mass, kg.
+    pub mass: Vec<f64>,
+    /// New velocity and its change in this step: v_x, v_y, dv_x, dv_y in m/s.
+    pub motion: Vec<[f64; 4]>,
+    /// Velocity whose gradient strains the material, m/s.
+    pub strain_velocity: Vec<[f64; 2]>,
+}
+
+impl ActiveGrid {
+    /// Number of active nodes.
+    pub fn len(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Whether no node is active.
+    pub fn is_empty(&self) -> bool {
+        self.mass.is_empty()
+    }
+
+    /// Sets the nodal arrays to the size of the columns.
+    pub fn allocate(&mut self) {
+        let nodes = self.columns.last().map_or(0, |c| (c.start + c.rows) as usize);
+        self.mass.clear();
+        self.mass.resize(nodes, 0.0);
+        self.motion.clear();
+        self.motion.resize(nodes, [0.0; 4]);
+        self.strain_velocity.clear();
+        self.strain_velocity.resize(nodes, [0.0; 2]);
+    }
+
+    /// First node index of column `c`, or the number of nodes past the last column.
+    pub fn column_start(&self, c: usize) -> usize {
+        self.columns.get(c).map_or(self.len(), |column| column.start as usize)
+    }
+
+    /// All nodes as (index, position).
+    pub fn nodes(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
+        self.columns.iter().enumerate().flat_map(move |(c, column)| {
+            (0..column.rows).map(move |r| {
+                let x = self.corner[0] + c as f64 * self.spacing;
+                let y = self.corner[1] + (f64::from(column.row) + f64::from(r)) * self.spacing;
+                ((column.start + r) as usize, [x, y])
+            })
+        })
+    }
+
+    /// Bytes held by the nodal arrays.
+    pub fn bytes(&self) -> usize {
+        self.columns.capacity() * size_of::<Column>()
+            + self.mass.capacity() * size_of::<f64>()
+            + self.motion.capacity() * size_of::<[f64; 4]>()
+            + self.strain_velocity.capacity() * size_of::<[f64; 2]>()
+    }
+}

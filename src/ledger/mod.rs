@@ -1,0 +1,133 @@
+//! Ledgers: where momentum and energy went.
+//!
+//! Momentum is booked by agent, energy by mechanism. Every entry is measured where it happens (at the node, at the point);
+//! none is inferred from another, so what does not add up shows as a residual.
+
+use crate::boundary::nodes::Tally;
+use crate::momentum::Drag;
+
+/// Sums since the ledger was opened. Impulses act on the material; works are done on the material.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ledger {
+    /// Impulse of gravity, N s.
+    pub gravity: [f64; 2],
+    /// One per boundary.
+    pub boundaries: Vec<Tally>,
+    /// Mass-proportional damping.
+    pub damping: Drag,
+    /// Side-wall friction.
+    pub side_walls: Drag,
+    /// Work of the stresses on the strains, J.
+    pub internal_work: f64,
+    /// Kinetic energy taken by the PIC share of the velocity update, J.
+    pub pic_loss: f64,
+    /// Momentum carried away by points that left the domain, N s.
+    pub departed_momentum: [f64; 2],
+    /// Kinetic, gravitational and elastic energy carried away by them, J.
+    pub departed_energy: f64,
+    /// Mass that left the domain, kg.
+    pub departed_mass: f64,
+    /// Sum of the magnitudes of all impulses, N s: the scale on which closure is judged.
+    pub impulse_scale: f64,
+}
+
+impl Ledger {
+    /// An empty ledger for `boundaries` boundaries.
+    pub fn new(boundaries: usize) -> Self {
+        Self { boundaries: vec![Tally::default(); boundaries], ..Self::default() }
+    }
+
+    /// Momentum that everything together has given to the material since the ledger was opened, N s.
+    pub fn impulse(&self) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for (d, s) in sum.iter_mut().enumerate() {
+            *s = self.gravity[d] + self.damping.impulse[d] + self.side_walls.impulse[d] - self.departed_momentum[d]
+                + self.boundaries.iter().map(|b| b.impulse[d]).sum::<f64>();
+        }
+        sum
+    }
+}
+
+/// What the material holds at one moment.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stock {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Momentum, N s.
+    pub momentum: [f64; 2],
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Gravitational energy above the origin of the coordinates, J.
+    pub gravitational: f64,
+    /// Elastic energy, J.
+    pub elastic: f64,
+}
+
+/// Energy by mechanism since the ledger was opened, in J. Dissipation is positive.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EnergyBalance {
+    /// Kinetic energy now.
+    pub kinetic: f64,
+    /// Gravitational energy now, above the datum.
+    pub gravitational: f64,
+    /// Elastic energy now.
+    pub elastic: f64,
+    /// Work of the stresses that was not stored: plastic dissipation.
+    pub plastic: f64,
+    /// Friction on each boundary.
+    pub friction: Vec<f64>,
+    /// Loss of normal motion at each boundary; negative where a moving boundary does work.
+    pub contact: Vec<f64>,
+    /// PIC share of the velocity update.
+    pub pic: f64,
+    /// Damping.
+    pub damping: f64,
+    /// Side-wall friction.
+    pub side_walls: f64,
+    /// Carried out of the domain.
+    pub outflow: f64,
+    /// What was there when the ledger was opened, less all of the above.
+    pub residual: f64,
+    /// Total when the ledger was opened.
+    pub initial: f64,
+}
+
+impl EnergyBalance {
+    /// Balances what was there when the ledger was opened against what is there now. `datum` (J) is the gravitational energy of
+    /// the mass at the level counted as zero, opening and now.
+    pub fn new(ledger: &Ledger, opening: &Stock, now: &Stock, datum: [f64; 2]) -> Self {
+        let initial = opening.kinetic + opening.gravitational - datum[0] + opening.elastic;
+        let friction: Vec<f64> = ledger.boundaries.iter().map(|b| -b.friction_work).collect();
+        let contact: Vec<f64> = ledger.boundaries.iter().map(|b| -b.normal_work).collect();
+        let mut balance = Self {
+            kinetic: now.kinetic,
+            gravitational: now.gravitational - datum[1],
+            elastic: now.elastic,
+            plastic: ledger.internal_work - (now.elastic - opening.elastic),
+            friction,
+            contact,
+            pic: ledger.pic_loss,
+            damping: -ledger.damping.work,
+            side_walls: -ledger.side_walls.work,
+            outflow: ledger.departed_energy - (datum[0] - datum[1]),
+            residual: 0.0,
+            initial,
+        };
+        balance.residual = initial - balance.accounted();
+        balance
+    }
+
+    /// Sum of everything but the residual, J.
+    pub fn accounted(&self) -> f64 {
+        self.kinetic
+            + self.gravitational
+            + self.elastic
+            + self.plastic
+            + self.friction.iter().sum::<f64>()
+            + self.contact.iter().sum::<f64>()
+            + self.pic
+            + self.damping
+            + self.side_walls
+            + self.outflow
+    }
+}

@@ -1,0 +1,217 @@
+//! Runs the transfer loops for the shape function, the law and the processor at hand.
+//!
+//! Every loop is compiled three times: for the plain target, for AVX2 and for AVX-512. Only the width of the vectors differs;
+//! no fused multiply-add is used, so the bits are the same (tested). This is the only `unsafe` of the crate: calling a
+//! function compiled for AVX2 or AVX-512 after the processor has said that it has it.
+#![allow(unsafe_code)]
+
+use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
+use crate::body::Points;
+use crate::constitutive::{AnyLaw, Law};
+use crate::layout::BandSums;
+use crate::shape::{AveragedHat, Hat, Shape1d};
+use std::sync::atomic::{AtomicU8, Ordering};
+
+/// Instruction sets that the loops are compiled for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum VectorUnit {
+    /// Whatever the build target guarantees.
+    Plain = 1,
+    /// 256 bits.
+    Avx2 = 2,
+    /// 512 bits.
+    Avx512 = 3,
+}
+
+static UNIT: AtomicU8 = AtomicU8::new(0);
+
+/// The widest instruction set of this processor, found once.
+pub fn vector_unit() -> VectorUnit {
+    match UNIT.load(Ordering::Relaxed) {
+        1 => VectorUnit::Plain,
+        2 => VectorUnit::Avx2,
+        3 => VectorUnit::Avx512,
+        _ => {
+            let found = detect();
+            UNIT.store(found as u8, Ordering::Relaxed);
+            found
+        }
+    }
+}
+
+/// Restricts the loops to `unit`, or to the widest available if that is less. For tests and benches.
+pub fn limit_vector_unit(unit: VectorUnit) {
+    UNIT.store(unit.min(detect()) as u8, Ordering::Relaxed);
+}
+
+fn detect() -> VectorUnit {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+        {
+            return VectorUnit::Avx512;
+        }
+        if is_x86_feature_detected!("avx2") {
+            return VectorUnit::Avx2;
+        }
+    }
+    VectorUnit::Plain
+}
+
+/// Compiles `$name` of [`kernels`] for each instruction set and calls the one found.
+macro_rules! by_vector_unit {
+    ($name:ident, [$($gen:ident : $bound:path),*], [$(const $c:ident),*], ($($arg:ident : $ty:ty),* $(,)?) $(-> $ret:ty)?) => {
+        #[allow(clippy::too_many_arguments)]
+        fn $name<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx2")]
+                #[allow(clippy::too_many_arguments)]
+                fn avx2<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
+                    kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
+                }
+                #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
+                #[allow(clippy::too_many_arguments)]
+                fn avx512<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
+                    kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
+                }
+                match vector_unit() {
+                    // SAFETY: `detect` has seen that this processor has AVX-512F, DQ and VL.
+                    VectorUnit::Avx512 => return unsafe { avx512::<$($gen,)* $($c,)*>($($arg),*) },
+                    // SAFETY: `detect` has seen that this processor has AVX2.
+                    VectorUnit::Avx2 => return unsafe { avx2::<$($gen,)* $($c,)*>($($arg),*) },
+                    VectorUnit::Plain => {}
+                }
+            }
+            kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
+        }
+    };
+}
+
+mod wide {
+    use super::*;
+
+    by_vector_unit!(scatter, [S: Shape1d], [const INERTIA, const FORCE], (
+        shape: S, map: &NodeMap, constants: PointConstants, points: &Points, first_node: usize,
+        inertia: &mut [[f64; 4]], force: &mut [[f64; 2]],
+    ));
+    by_vector_unit!(gather_velocity, [S: Shape1d], [const REMAP], (
+        shape: S, map: &NodeMap, constants: PointConstants, update: VelocityUpdate, motion: &[[f64; 4]],
+        points: &mut Points, first_node: usize, momentum: &mut [[f64; 2]],
+    ) -> BandSums);
+    by_vector_unit!(update_stress, [S: Shape1d, L: Law], [], (
+        shape: S, law: L, map: &NodeMap, constants: PointConstants, update: StressUpdate,
+        velocity: &[[f64; 2]], points: &mut Points,
+    ) -> BandSums);
+
+    pub(super) fn scatter_shape<S: Shape1d>(
+        what: Scatter,
+        shape: S,
+        map: &NodeMap,
+        constants: PointConstants,
+        points: &Points,
+        first_node: usize,
+        inertia: &mut [[f64; 4]],
+        force: &mut [[f64; 2]],
+    ) {
+        match what {
+            Scatter::All => scatter::<S, true, true>(shape, map, constants, points, first_node, inertia, force),
+            Scatter::Inertia => scatter::<S, true, false>(shape, map, constants, points, first_node, inertia, force),
+            Scatter::Force => scatter::<S, false, true>(shape, map, constants, points, first_node, inertia, force),
+        }
+    }
+
+    pub(super) fn gather_shape<S: Shape1d>(
+        shape: S,
+        map: &NodeMap,
+        constants: PointConstants,
+        update: VelocityUpdate,
+        motion: &[[f64; 4]],
+        points: &mut Points,
+        first_node: usize,
+        momentum: &mut [[f64; 2]],
+    ) -> BandSums {
+        if update.remap {
+            gather_velocity::<S, true>(shape, map, constants, update, motion, points, first_node, momentum)
+        } else {
+            gather_velocity::<S, false>(shape, map, constants, update, motion, points, first_node, momentum)
+        }
+    }
+
+    pub(super) fn stress_shape<S: Shape1d>(
+        shape: S,
+        law: AnyLaw,
+        map: &NodeMap,
+        constants: PointConstants,
+        update: StressUpdate,
+        velocity: &[[f64; 2]],
+        points: &mut Points,
+    ) -> BandSums {
+        match law {
+            AnyLaw::LinearElastic(law) => update_stress(shape, law, map, constants, update, velocity, points),
+            AnyLaw::DruckerPrager(law) => update_stress(shape, law, map, constants, update, velocity, points),
+        }
+    }
+}
+
+/// Particle to grid. `half_width` is that of the shape function's averaging box in cells, 0 for linear shape functions;
+/// `inertia` and `force` belong to the nodes from `first_node` on.
+#[allow(clippy::too_many_arguments)]
+pub fn scatter(
+    what: Scatter,
+    half_width: f64,
+    map: &NodeMap,
+    constants: PointConstants,
+    points: &Points,
+    first_node: usize,
+    inertia: &mut [[f64; 4]],
+    force: &mut [[f64; 2]],
+) {
+    if half_width > 0.0 {
+        let shape = AveragedHat::new(half_width);
+        wide::scatter_shape(what, shape, map, constants, points, first_node, inertia, force);
+    } else {
+        wide::scatter_shape(what, Hat, map, constants, points, first_node, inertia, force);
+    }
+}
+
+/// Grid to particle: velocity, displacement, and (MUSL) the momentum mapped back into `momentum`.
+#[allow(clippy::too_many_arguments)]
+pub fn gather_velocity(
+    half_width: f64,
+    map: &NodeMap,
+    constants: PointConstants,
+    update: VelocityUpdate,
+    motion: &[[f64; 4]],
+    points: &mut Points,
+    first_node: usize,
+    momentum: &mut [[f64; 2]],
+) -> BandSums {
+    if half_width > 0.0 {
+        let shape = AveragedHat::new(half_width);
+        wide::gather_shape(shape, map, constants, update, motion, points, first_node, momentum)
+    } else {
+        wide::gather_shape(Hat, map, constants, update, motion, points, first_node, momentum)
+    }
+}
+
+/// Grid to particle: strain, stress, volume, and the move of the step.
+pub fn update_stress(
+    half_width: f64,
+    law: AnyLaw,
+    map: &NodeMap,
+    constants: PointConstants,
+    update: StressUpdate,
+    velocity: &[[f64; 2]],
+    points: &mut Points,
+) -> BandSums {
+    if half_width > 0.0 {
+        let shape = AveragedHat::new(half_width);
+        wide::stress_shape(shape, law, map, constants, update, velocity, points)
+    } else {
+        wide::stress_shape(Hat, law, map, constants, update, velocity, points)
+    }
+}

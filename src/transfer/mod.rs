@@ -1,0 +1,77 @@
+//! Transfers between material points and grid nodes.
+//!
+//! Each transfer is one loop over the blocks of a band: weights of eight points at a time, then the nodes of one point after
+//! the other. [`kernels`] holds the loops, [`dispatch`] runs them with the widest vectors the processor has.
+
+mod dispatch;
+mod kernels;
+
+pub use dispatch::{gather_velocity, scatter, update_stress};
+
+use crate::grid::{ActiveGrid, Column};
+
+/// What a scatter adds to the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scatter {
+    /// Mass, momentum and internal force, for an update with the stress of the step's start (USL, MUSL).
+    All,
+    /// Mass and momentum only, before the stress is updated (USF).
+    Inertia,
+    /// Internal force only, after the stress was updated (USF).
+    Force,
+}
+
+/// Properties of a body that the loops need.
+#[derive(Debug, Clone, Copy)]
+pub struct PointConstants {
+    /// Mass of a point, kg.
+    pub mass: f64,
+    /// Reference volume of a point, m3.
+    pub volume: f64,
+    /// Side-wall friction: force per volume and out-of-plane pressure, 2 mu / width, 1/m.
+    pub side_friction: f64,
+}
+
+/// How the velocity of the points follows the grid.
+#[derive(Debug, Clone, Copy)]
+pub struct VelocityUpdate {
+    /// Time step, s.
+    pub dt: f64,
+    /// Share of PIC, 0 to 1.
+    pub pic: f64,
+    /// Whether the new velocities are mapped back to the grid (MUSL).
+    pub remap: bool,
+    /// Whether points move at once (USF) or after their stress update.
+    pub move_now: bool,
+}
+
+/// How the stress follows the grid.
+#[derive(Debug, Clone, Copy)]
+pub struct StressUpdate {
+    /// Time step, s.
+    pub dt: f64,
+    /// Whether points then move by their displacement of the step.
+    pub move_after: bool,
+}
+
+/// Where nodes are in memory.
+#[derive(Debug, Clone, Copy)]
+pub struct NodeMap<'a> {
+    columns: &'a [Column],
+    corner: [f64; 2],
+    inverse_spacing: f64,
+}
+
+impl<'a> NodeMap<'a> {
+    /// The map of a grid.
+    pub fn new(grid: &'a ActiveGrid) -> Self {
+        Self { columns: &grid.columns, corner: grid.corner, inverse_spacing: grid.inverse_spacing }
+    }
+
+    /// Index of the node at column `i` and row `j`, both counted from the grid's corner.
+    #[inline(always)]
+    fn index(&self, i: i32, j: i32) -> usize {
+        let column = &self.columns[i as usize];
+        (column.start as i32 + (j - column.row)) as usize
+    }
+}
