@@ -6,6 +6,7 @@ pub mod body;
 pub mod boundary;
 pub mod case;
 pub mod constitutive;
+pub mod gauge;
 pub mod grid;
 pub mod lanes;
 pub mod layout;

@@ -1,0 +1,185 @@
+//! Front, depth, velocity, run-up and overtopping.
+
+use crate::simulation::Simulation;
+
+/// Share of the mass ahead of what counts as the front: single grains do not.
+pub const FRONT_SHARE: f64 = 0.01;
+/// Length behind the front over which its velocity is averaged, m.
+pub const FRONT_LENGTH: f64 = 0.05;
+
+/// The front along x.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Front {
+    /// Position that 1 % of the mass has passed, m.
+    pub x: f64,
+    /// Mean velocity along x of the mass within 0.05 m behind it (and all ahead), m/s.
+    pub velocity: f64,
+    /// Largest flow depth within 0.1 m behind it, m.
+    pub depth: f64,
+}
+
+/// Finds the front. `scratch` is memory to reuse.
+pub fn front(simulation: &Simulation, scratch: &mut Vec<(f64, f64, f64, f64)>) -> Front {
+    scratch.clear();
+    scratch.extend(simulation.particles().map(|(b, p)| {
+        let body = &simulation.bodies()[b];
+        (p.x[0], p.v[0], body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO))
+    }));
+    if scratch.is_empty() {
+        return Front::default();
+    }
+    scratch.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    let mass: f64 = scratch.iter().map(|p| p.2).sum();
+    let mut passed = 0.0;
+    let x = scratch
+        .iter()
+        .find(|p| {
+            passed += p.2;
+            passed >= FRONT_SHARE * mass
+        })
+        .map_or(0.0, |p| p.0);
+    let (mut momentum, mut head) = (0.0, 0.0);
+    for p in scratch.iter().take_while(|p| p.0 >= x - FRONT_LENGTH) {
+        momentum += p.2 * p.1;
+        head += p.2;
+    }
+    // Depth from the volume in strips of two cells.
+    let strip = 2.0 * simulation.spacing();
+    let strips = (0.1 / strip).round().max(1.0) as usize;
+    let mut volumes = vec![0.0; strips];
+    for p in scratch.iter().skip_while(|p| p.0 > x).take_while(|p| p.0 > x - strips as f64 * strip) {
+        volumes[(((x - p.0) / strip) as usize).min(strips - 1)] += p.3;
+    }
+    let depth = volumes.iter().fold(0.0, |a: f64, v| a.max(v / (strip * simulation.thickness())));
+    Front { x, velocity: momentum / head, depth }
+}
+
+/// Points that have come apart count with at most this volume ratio in depths.
+const MAX_VOLUME_RATIO: f64 = 1.5;
+
+/// Depth (m) and mean velocity along x (m/s) in a strip two cells wide around each station.
+pub fn stations(simulation: &Simulation, at: &[f64]) -> Vec<(f64, f64)> {
+    let h = simulation.spacing();
+    let mut sums = vec![(0.0, 0.0, 0.0); at.len()];
+    for (b, p) in simulation.particles() {
+        for (sum, &x) in sums.iter_mut().zip(at) {
+            if (p.x[0] - x).abs() <= h {
+                let body = &simulation.bodies()[b];
+                sum.0 += body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO);
+                sum.1 += body.point_mass;
+                sum.2 += body.point_mass * p.v[0];
+            }
+        }
+    }
+    let area = 2.0 * h * simulation.thickness();
+    sums.iter().map(|&(v, m, mv)| (v / area, if m > 0.0 { mv / m } else { 0.0 })).collect()
+}
+
+/// Material at a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WallState {
+    /// Highest point within 1.5 cells of the face, m above the foot.
+    pub run_up: f64,
+    /// Mass behind the face, kg: it has gone over.
+    pub overtopped: f64,
+}
+
+/// Run-up and overtopping at a wall.
+pub fn wall_state(simulation: &Simulation, boundary: usize) -> WallState {
+    let b = &simulation.boundaries()[boundary];
+    let h = simulation.spacing();
+    let mut state = WallState::default();
+    for (body, p) in simulation.particles() {
+        let (d, s) = b.face_coordinates(p.x);
+        if d < -h {
+            state.overtopped += simulation.bodies()[body].point_mass;
+        } else if d <= 1.5 * h {
+            state.run_up = state.run_up.max(s);
+        }
+    }
+    state
+}
+
+/// Deepest that any point lies inside any boundary, m, and the boundary's index.
+pub fn penetration(simulation: &Simulation) -> (f64, usize) {
+    let mut deepest = (0.0, 0);
+    for (index, b) in simulation.boundaries().iter().enumerate().filter(|(_, b)| !b.is_gone()) {
+        for (_, p) in simulation.particles() {
+            let depth = b.depth(p.x);
+            if depth > deepest.0 {
+                deepest = (depth, index);
+            }
+        }
+    }
+    deepest
+}
+
+/// A rectangle in which velocities are read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// Extent along x, m.
+    pub x: [f64; 2],
+    /// Extent along y, m.
+    pub y: [f64; 2],
+}
+
+impl Window {
+    fn contains(&self, x: [f64; 2]) -> bool {
+        x[0] >= self.x[0] && x[0] <= self.x[1] && x[1] >= self.y[0] && x[1] <= self.y[1]
+    }
+}
+
+/// Mean and 95th percentile of the speed of the material in a window, m/s; zero where it is empty.
+pub fn window_speed(simulation: &Simulation, window: &Window, scratch: &mut Vec<f64>) -> (f64, f64) {
+    scratch.clear();
+    scratch.extend(simulation.particles().filter(|(_, p)| window.contains(p.x)).map(|(_, p)| p.speed()));
+    if scratch.is_empty() {
+        return (0.0, 0.0);
+    }
+    let mean = scratch.iter().sum::<f64>() / scratch.len() as f64;
+    scratch.sort_unstable_by(f64::total_cmp);
+    (mean, scratch[((scratch.len() - 1) as f64 * 0.95).round() as usize])
+}
+
+/// One grid cell of a velocity field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldCell {
+    /// Centre, m.
+    pub x: [f64; 2],
+    /// Share of the cell's volume filled with material.
+    pub fill: f64,
+    /// Mass-weighted mean velocity, m/s.
+    pub v: [f64; 2],
+}
+
+/// Mean velocities in the grid cells that hold material, column by column.
+pub fn velocity_field(simulation: &Simulation) -> Vec<FieldCell> {
+    let h = simulation.spacing();
+    let mut points: Vec<_> = simulation
+        .particles()
+        .map(|(b, p)| {
+            let body = &simulation.bodies()[b];
+            let cell = ((p.x[0] / h).floor() as i64, (p.x[1] / h).floor() as i64);
+            (cell, body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO), p.v)
+        })
+        .collect();
+    points.sort_by_key(|p| p.0);
+    points
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|cell| {
+            let (mut mass, mut volume, mut momentum) = (0.0, 0.0, [0.0; 2]);
+            for (_, m, v, u) in cell {
+                mass += m;
+                volume += v;
+                momentum[0] += m * u[0];
+                momentum[1] += m * u[1];
+            }
+            let (i, j) = cell[0].0;
+            FieldCell {
+                x: [(i as f64 + 0.5) * h, (j as f64 + 0.5) * h],
+                fill: volume / (h * h * simulation.thickness()),
+                v: [momentum[0] / mass, momentum[1] / mass],
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,50 @@
+//! Force on a wall from the stress of the nearest layers of material points (Ng et al., Eq. 8 and Appendix C).
+//!
+//! Eq. 8 sums pressure times area over the points of a layer; with several layers the sum must be divided by their number, or
+//! the area counts as often. Here the sum is an integral: normal stress times volume over all points within k point spacings
+//! of the nearest one, divided by the thickness of k spacings. The nearest point is sought anew in each bin of one cell's
+//! height, so that material which has not arrived does not count.
+
+use crate::simulation::Simulation;
+
+/// Layers that are averaged.
+pub const LAYERS: [usize; 3] = [1, 2, 3];
+
+/// Normal force (N, positive in compression) on a wall from the nearest 1, 2 and 3 layers of points.
+pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
+    let b = &simulation.boundaries()[boundary];
+    let h = simulation.spacing();
+    let (nx, ny) = (b.normal.x, b.normal.y);
+    let reach = LAYERS[2] as f64 * h;
+    // (bin, distance from the face, compression x volume, point spacing)
+    let mut near: Vec<(usize, f64, f64, f64)> = Vec::new();
+    for (index, p) in simulation.particles() {
+        let (d, s) = b.face_coordinates(p.x);
+        if d < -h || d > reach || s < 0.0 || s > b.height() {
+            continue;
+        }
+        let body = &simulation.bodies()[index];
+        let t = &p.state.stress;
+        let normal_stress = nx * nx * t.xx + ny * ny * t.yy + 2.0 * nx * ny * t.xy;
+        near.push(((s / h) as usize, d, -normal_stress * body.point_volume * p.volume_ratio, body.point_spacing));
+    }
+    let bins = near.iter().map(|n| n.0 + 1).max().unwrap_or(0);
+    let mut nearest = vec![f64::INFINITY; bins];
+    for &(bin, d, ..) in &near {
+        nearest[bin] = nearest[bin].min(d);
+    }
+    let mut force = [0.0; 3];
+    for (bin, d, compression_volume, spacing) in near {
+        let first = nearest[bin];
+        if first > h {
+            continue;
+        }
+        for (k, &layers) in LAYERS.iter().enumerate() {
+            let thickness = layers as f64 * spacing;
+            if d < first - 0.5 * spacing + thickness {
+                force[k] += compression_volume / thickness;
+            }
+        }
+    }
+    force
+}
