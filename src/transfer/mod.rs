@@ -6,7 +6,7 @@
 mod dispatch;
 mod kernels;
 
-pub use dispatch::{gather_velocity, scatter, update_stress};
+pub use dispatch::{VectorUnit, gather_velocity, limit_vector_unit, scatter, update_stress, vector_unit};
 
 use crate::grid::{ActiveGrid, Column};
 
