@@ -1,0 +1,141 @@
+//! From a validated case to a scene.
+
+use crate::body::{Body, Particle};
+use crate::boundary::{Boundary, Friction, Opening};
+use crate::case::{self, Case};
+use crate::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic};
+use crate::grid::Lattice;
+use crate::shape::ShapeFunction;
+use crate::simulation::{Numerics, PicShare, Scene, Scheme};
+use nalgebra::Vector2;
+
+/// Builds the scene of a case that has passed validation, with gravity as it is while the material settles.
+pub fn build(case: &Case) -> Scene {
+    let angle = case.gravity.settle_inclination_or_default_deg();
+    Scene {
+        lattice: Lattice { spacing: case.grid.spacing_m, origin: [0.0, 0.0] },
+        thickness: case.grid.thickness_m,
+        domain: [case.domain.x_m, case.domain.y_m],
+        bodies: case.bodies.iter().map(|b| body(case, b)).collect(),
+        boundaries: case.boundaries.iter().filter_map(|b| boundary(case, b)).collect(),
+        gravity: gravity(case, angle),
+        side_wall_friction: case.side_walls.friction,
+        numerics: numerics(case),
+    }
+}
+
+/// Gravity in the frame of the flume inclined by `angle_deg`, m/s2.
+pub fn gravity(case: &Case, angle_deg: f64) -> [f64; 2] {
+    let (g, angle) = (case.gravity.magnitude_m_per_s2, angle_deg.to_radians());
+    [g * libm::sin(angle), -g * libm::cos(angle)]
+}
+
+fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
+    let material = &case.materials[&b.material];
+    let spacing = case.particle_spacing_m();
+    let volume = spacing * spacing * case.grid.thickness_m;
+    let [nx, ny] = b.particle_counts(spacing);
+    let (sin, cos) = (libm::sin(b.rotation_deg.to_radians()), libm::cos(b.rotation_deg.to_radians()));
+    let mut particles = Vec::with_capacity((nx * ny) as usize);
+    for i in 0..nx as usize {
+        for j in 0..ny as usize {
+            let (u, v) = ((i as f64 + 0.5) * spacing, (j as f64 + 0.5) * spacing);
+            let x = [b.x_m[0] + cos * u - sin * v, b.y_m[0] + sin * u + cos * v];
+            let id = particles.len() as u32;
+            particles.push(Particle { v: b.velocity_m_per_s, ..Particle::at_rest(id, x) });
+        }
+    }
+    let body = Body {
+        name: b.name.clone(),
+        law: law(material),
+        point_mass: material.density_kg_per_m3 * volume,
+        point_volume: volume,
+        points_per_direction: f64::from(case.grid.particles_per_cell).sqrt().round() as usize,
+        point_spacing: spacing,
+    };
+    (body, particles)
+}
+
+fn law(material: &case::Material) -> AnyLaw {
+    let elastic = LinearElastic::new(material.young_pa, material.poisson);
+    match material.drucker_prager() {
+        None => AnyLaw::LinearElastic(elastic),
+        Some(dp) => AnyLaw::DruckerPrager(DruckerPrager::new(
+            elastic,
+            match dp.cone {
+                case::Cone::TriaxialCompression => Cone::TriaxialCompression,
+                case::Cone::TriaxialExtension => Cone::TriaxialExtension,
+                case::Cone::PlaneStrain => Cone::PlaneStrain,
+                case::Cone::AsPrinted => Cone::AsPrinted,
+            },
+            dp.friction_angle_deg.to_radians(),
+            dp.dilatancy_angle_deg.to_radians(),
+            dp.cohesion_pa,
+            dp.tension_cutoff_pa,
+            dp.void_tracking,
+        )),
+    }
+}
+
+/// `None` only for a boundary that validation refuses.
+fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
+    let friction = match b.contact_law()? {
+        case::Contact::Smooth => Friction::Smooth,
+        case::Contact::Coulomb { friction } => Friction::Coulomb(friction),
+        case::Contact::Rough => Friction::Rough,
+    };
+    let wall = |w: case::Wall| {
+        let wall = Boundary::wall(
+            &b.name,
+            w.foot_m.into(),
+            direction(w.inclination_deg),
+            w.height_m,
+            w.thickness_m,
+            friction,
+        );
+        match w.material_side {
+            case::MaterialSide::Left => wall,
+            case::MaterialSide::Right => wall.facing_right(),
+        }
+    };
+    Some(match b.shape(&case.grid)? {
+        case::Shape::Plane { point_m, normal_deg } => {
+            Boundary::plane(&b.name, point_m.into(), direction(normal_deg), friction)
+        }
+        case::Shape::Wall(w) => wall(w),
+        case::Shape::Gate(w, opening) => wall(w).gate(match opening {
+            case::Opening::Vanish => Opening::Vanish,
+            case::Opening::Lift { speed_m_per_s } => Opening::Lift { speed: speed_m_per_s, opening: f64::INFINITY },
+            case::Opening::Raise { speed_m_per_s, opening_m } => {
+                Opening::Lift { speed: speed_m_per_s.unwrap_or(f64::INFINITY), opening: opening_m }
+            }
+        }),
+    })
+}
+
+/// Unit vector at an angle from the x axis; exact along the axes, where walls must meet nodes.
+fn direction(angle_deg: f64) -> Vector2<f64> {
+    case::direction(angle_deg).into()
+}
+
+fn numerics(case: &Case) -> Numerics {
+    let n = &case.numerics;
+    Numerics {
+        scheme: match n.scheme {
+            case::Scheme::Usf => Scheme::Usf,
+            case::Scheme::Usl => Scheme::Usl,
+            case::Scheme::Musl => Scheme::Musl,
+        },
+        shape: match case.grid.shape_function {
+            case::ShapeFunction::Linear => ShapeFunction::Linear,
+            case::ShapeFunction::Ugimp => ShapeFunction::Ugimp,
+            case::ShapeFunction::Bspline => ShapeFunction::Bspline,
+        },
+        cfl: n.cfl,
+        max_time_step: n.max_time_step_s.unwrap_or(f64::INFINITY),
+        pic: match n.pic() {
+            case::Pic::FractionPerStep(fraction) => PicShare::Fraction(fraction),
+            case::Pic::RatePerSecond(rate) => PicShare::Rate(rate),
+        },
+    }
+}
