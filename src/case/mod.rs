@@ -1,1 +1,180 @@
-//! case
+//! The case file: its format, its checks, and reports that point at the line at fault.
+//!
+//! [`load`] reads a file, [`parse`] a text. Both return a [`LoadedCase`] whose defaults are filled in, or a [`CaseError`]
+//! whose `Display` is the complete report for the user.
+
+mod boundary;
+mod geometry;
+mod material;
+mod parse;
+mod path;
+mod report;
+mod schema;
+mod structure;
+mod suggest;
+#[cfg(test)]
+mod tests;
+mod validate;
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use thiserror::Error;
+
+pub use boundary::{
+    Boundary, BoundaryKind, Contact, ContactKind, MaterialSide, Opening, OpeningKind, Shape, Wall,
+};
+pub use geometry::direction;
+pub use material::{Cone, DruckerPrager, Law, Material};
+pub use path::{KeyPath, PathSegment};
+pub use schema::{
+    Body, Case, Domain, Gauges, Gravity, Grid, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS,
+    Numerics, Output, Pic, Run, Scheme, Settle, ShapeFunction, SideWalls, Stages, Tilt,
+};
+pub use validate::{Findings, Problem, validate};
+
+use report::{Diagnostic, Level, Source};
+
+/// Longer files are not case files, bytes.
+const LONGEST_FILE: u64 = 4 << 20;
+
+/// A case that passed all checks, with its defaults filled in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedCase {
+    /// The case.
+    pub case: Case,
+    /// Reports, ready to print, of values that are allowed and look like mistakes.
+    pub warnings: Vec<String>,
+}
+
+/// Why a case cannot be run. `Display` gives the report for the user, several lines long.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// The file cannot be read.
+    #[error("{0}")]
+    Unreadable(String),
+    /// The text is not TOML, or its keys or types are not those of a case.
+    #[error("{0}")]
+    Malformed(String),
+    /// The values fail the checks.
+    #[error("{report}")]
+    Invalid {
+        /// The report for the user.
+        report: String,
+        /// The same, problem by problem.
+        problems: Vec<Problem>,
+    },
+}
+
+/// Reads and checks a case file.
+pub fn load(path: &Path) -> Result<LoadedCase, CaseError> {
+    let name = path.display().to_string();
+    let bytes = read(path).map_err(|(what, fix)| {
+        let diagnostic = Diagnostic {
+            what,
+            span: None,
+            allowed: "the path of a case file, NAME.toml".to_owned(),
+            fix,
+        };
+        CaseError::Unreadable(
+            Source {
+                name: &name,
+                text: "",
+            }
+            .render(Level::Error, &diagnostic),
+        )
+    })?;
+    parse(&bytes, &name)
+}
+
+/// The text of a file, or what is wrong and what to do.
+fn read(path: &Path) -> Result<String, (String, String)> {
+    let name = path.display();
+    let failed = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            let fix =
+                "check the spelling and the directory from which the command is run".to_owned();
+            (format!("{name} does not exist"), fix)
+        }
+        io::ErrorKind::PermissionDenied => (
+            format!("{name} may not be read"),
+            "change the permissions of the file".to_owned(),
+        ),
+        _ => (
+            format!("{name} cannot be read: {error}"),
+            "give the path of a file that can be read".to_owned(),
+        ),
+    };
+    if path.is_dir() {
+        return Err((
+            format!("{name} is a directory"),
+            "give one of the .toml files in it".to_owned(),
+        ));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(LONGEST_FILE + 1).read_to_end(&mut bytes))
+        .map_err(failed)?;
+    let not_a_case = "give a case file; results, meshes and images are not input".to_owned();
+    if bytes.len() as u64 > LONGEST_FILE {
+        return Err((
+            format!(
+                "{name} is longer than {} MiB and no case file",
+                LONGEST_FILE >> 20
+            ),
+            not_a_case,
+        ));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let byte = error.utf8_error().valid_up_to();
+        (
+            format!("{name} is not text in UTF-8: byte {byte} is not part of a character"),
+            not_a_case,
+        )
+    })
+}
+
+/// Checks the text of a case file; `name` stands for the file in reports.
+pub fn parse(text: &str, name: &str) -> Result<LoadedCase, CaseError> {
+    let source = Source { name, text };
+    let render = |level, diagnostics: &[Diagnostic]| -> Vec<String> {
+        diagnostics
+            .iter()
+            .map(|diagnostic| source.render(level, diagnostic))
+            .collect()
+    };
+    let (mut case, document) = parse::case_and_document(&source).map_err(|diagnostics| {
+        CaseError::Malformed(joined(name, &render(Level::Error, &diagnostics)))
+    })?;
+
+    let findings = validate(&case);
+    let place = |problems: &[Problem]| -> Vec<Diagnostic> {
+        problems
+            .iter()
+            .map(|problem| source.diagnose(&document, problem))
+            .collect()
+    };
+    if !findings.problems.is_empty() {
+        let mut diagnostics = place(&findings.problems);
+        diagnostics.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
+        let report = joined(name, &render(Level::Error, &diagnostics));
+        return Err(CaseError::Invalid {
+            report,
+            problems: findings.problems,
+        });
+    }
+    case.resolve();
+    Ok(LoadedCase {
+        case,
+        warnings: render(Level::Warning, &place(&findings.warnings)),
+    })
+}
+
+fn joined(name: &str, reports: &[String]) -> String {
+    let mut report = reports.join("\n");
+    if reports.len() > 1 {
+        report += &format!("\nerror: {} problems in {name}\n", reports.len());
+    }
+    report
+}

@@ -1,0 +1,216 @@
+//! Rigid boundaries: the `[[boundaries]]` tables of a case file, and the same as types that cannot be inconsistent.
+
+use serde::{Deserialize, Serialize};
+
+use super::schema::Grid;
+
+/// A rigid boundary as written in the file. Which of the optional fields are required depends on `kind`, `contact` and
+/// `opening`; [`Boundary::shape`] and [`Boundary::contact_law`] give the outcome.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Boundary {
+    /// Name, not empty, different from that of every other boundary.
+    pub name: String,
+    /// Plane, wall or gate.
+    pub kind: BoundaryKind,
+    /// Plane: a point on its surface, m.
+    pub point_m: Option<[f64; 2]>,
+    /// Plane: direction of the outward normal, into the material, degrees from the x axis, counter-clockwise.
+    pub normal_deg: Option<f64>,
+    /// Wall, gate: lower end of the face that meets the material, m.
+    pub foot_m: Option<[f64; 2]>,
+    /// Wall, gate: distance from foot to crest, m, positive.
+    pub height_m: Option<f64>,
+    /// Wall, gate: direction from foot to crest, degrees from the x axis, counter-clockwise. Default 90.
+    pub inclination_deg: Option<f64>,
+    /// Wall, gate: the side of the face on which the material is, seen from foot to crest. Default left.
+    pub material_side: Option<MaterialSide>,
+    /// Wall, gate: thickness on the side away from the material, m, positive. Default four cells.
+    pub thickness_m: Option<f64>,
+    /// Contact law. No boundary holds back material that moves away.
+    pub contact: ContactKind,
+    /// Coulomb friction coefficient (not an angle), not negative; with `coulomb`, and only then.
+    pub friction: Option<f64>,
+    /// Gate: how it opens. Default vanish.
+    pub opening: Option<OpeningKind>,
+    /// Gate that lifts or is raised: its speed, m/s, positive. A raised gate without it opens at once.
+    pub lift_speed_m_per_s: Option<f64>,
+    /// Gate that is raised: the free height below it at which it is held, m, positive.
+    pub opening_m: Option<f64>,
+}
+
+/// Kind of boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BoundaryKind {
+    /// An infinite half space.
+    Plane,
+    /// A rectangle with a foot, a height and a thickness.
+    Wall,
+    /// A wall that opens when the run starts.
+    Gate,
+}
+
+/// The side of a wall on which the material is, seen from foot to crest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MaterialSide {
+    /// To the left: at smaller x for a vertical wall.
+    #[default]
+    Left,
+    /// To the right.
+    Right,
+}
+
+/// Contact law as written in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactKind {
+    /// No friction.
+    Smooth,
+    /// Coulomb friction.
+    Coulomb,
+    /// No slip while pressed.
+    Rough,
+}
+
+/// How a gate opens, as written in the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OpeningKind {
+    /// Disappears at release.
+    #[default]
+    Vanish,
+    /// Moves away along its face.
+    Lift,
+    /// Moves along its face until a given height is free below it, and stays there.
+    Raise,
+}
+
+/// Geometry of a boundary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// The half space behind the point, away from the normal.
+    Plane {
+        /// A point on the surface, m.
+        point_m: [f64; 2],
+        /// Direction of the normal into the material, degrees from the x axis, counter-clockwise.
+        normal_deg: f64,
+    },
+    /// A fixed wall.
+    Wall(Wall),
+    /// A wall that opens at release.
+    Gate(Wall, Opening),
+}
+
+/// A wall: a rectangle behind the face from foot to crest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wall {
+    /// Lower end of the face, m.
+    pub foot_m: [f64; 2],
+    /// Distance from foot to crest, m.
+    pub height_m: f64,
+    /// Direction from foot to crest, degrees from the x axis, counter-clockwise.
+    pub inclination_deg: f64,
+    /// The side on which the material is.
+    pub material_side: MaterialSide,
+    /// Thickness away from the material, m.
+    pub thickness_m: f64,
+}
+
+/// How a gate opens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Opening {
+    /// Disappears at release.
+    Vanish,
+    /// Moves away along its face.
+    Lift {
+        /// Speed, m/s.
+        speed_m_per_s: f64,
+    },
+    /// Moves along its face until `opening_m` is free below it.
+    Raise {
+        /// Speed, m/s; `None`: at once.
+        speed_m_per_s: Option<f64>,
+        /// Free height below the gate, m.
+        opening_m: f64,
+    },
+}
+
+/// Contact law of a boundary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Contact {
+    /// No friction.
+    Smooth,
+    /// Coulomb friction.
+    Coulomb {
+        /// Friction coefficient.
+        friction: f64,
+    },
+    /// No slip while pressed.
+    Rough,
+}
+
+impl Boundary {
+    /// Thickness of walls and gates that give none, in cells.
+    pub const DEFAULT_THICKNESS_CELLS: f64 = 4.0;
+
+    /// Geometry with the defaults filled in; `None` if a required field is missing, which validation refuses.
+    pub fn shape(&self, grid: &Grid) -> Option<Shape> {
+        match self.kind {
+            BoundaryKind::Plane => Some(Shape::Plane {
+                point_m: self.point_m?,
+                normal_deg: self.normal_deg?,
+            }),
+            BoundaryKind::Wall => Some(Shape::Wall(self.wall(grid)?)),
+            BoundaryKind::Gate => Some(Shape::Gate(self.wall(grid)?, self.opening_law()?)),
+        }
+    }
+
+    /// Contact law; `None` if a required field is missing, which validation refuses.
+    pub fn contact_law(&self) -> Option<Contact> {
+        match self.contact {
+            ContactKind::Smooth => Some(Contact::Smooth),
+            ContactKind::Coulomb => Some(Contact::Coulomb {
+                friction: self.friction?,
+            }),
+            ContactKind::Rough => Some(Contact::Rough),
+        }
+    }
+
+    fn wall(&self, grid: &Grid) -> Option<Wall> {
+        Some(Wall {
+            foot_m: self.foot_m?,
+            height_m: self.height_m?,
+            inclination_deg: self.inclination_deg.unwrap_or(90.0),
+            material_side: self.material_side.unwrap_or_default(),
+            thickness_m: self
+                .thickness_m
+                .unwrap_or(Self::DEFAULT_THICKNESS_CELLS * grid.spacing_m),
+        })
+    }
+
+    fn opening_law(&self) -> Option<Opening> {
+        match self.opening.unwrap_or_default() {
+            OpeningKind::Vanish => Some(Opening::Vanish),
+            OpeningKind::Lift => Some(Opening::Lift {
+                speed_m_per_s: self.lift_speed_m_per_s?,
+            }),
+            OpeningKind::Raise => Some(Opening::Raise {
+                speed_m_per_s: self.lift_speed_m_per_s,
+                opening_m: self.opening_m?,
+            }),
+        }
+    }
+
+    pub(super) fn resolve(&mut self, grid: &Grid) {
+        if let Some(wall) = self.wall(grid).filter(|_| self.kind != BoundaryKind::Plane) {
+            self.inclination_deg = Some(wall.inclination_deg);
+            self.material_side = Some(wall.material_side);
+            self.thickness_m = Some(wall.thickness_m);
+        }
+        if self.kind == BoundaryKind::Gate {
+            self.opening.get_or_insert_default();
+        }
+    }
+}

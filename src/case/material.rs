@@ -1,0 +1,109 @@
+//! Materials: the `[materials.NAME]` tables of a case file.
+
+use serde::{Deserialize, Serialize};
+
+/// A material. The fields from `friction_angle_deg` on belong to the Drucker-Prager law and are refused with the other.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Constitutive law.
+    pub law: Law,
+    /// Bulk density, kg/m^3, positive.
+    pub density_kg_per_m3: f64,
+    /// Young's modulus, Pa, positive.
+    pub young_pa: f64,
+    /// Poisson's ratio, above -1 and below 0.5.
+    pub poisson: f64,
+    /// Mohr-Coulomb friction angle, degrees, in \[0, 90). Required by `drucker_prager`.
+    pub friction_angle_deg: Option<f64>,
+    /// Cohesion, Pa, not negative. Default 0.
+    pub cohesion_pa: Option<f64>,
+    /// Dilatancy angle, degrees, from 0 to the friction angle. Default 0.
+    pub dilatancy_angle_deg: Option<f64>,
+    /// How the cone is matched to the Mohr-Coulomb angle. Default `triaxial_compression`.
+    pub cone: Option<Cone>,
+    /// Largest mean tension, Pa, not negative. Default 0.
+    pub tension_cutoff_pa: Option<f64>,
+    /// Material that separates must close the opened volume before it builds pressure. Default true.
+    pub void_tracking: Option<bool>,
+}
+
+/// Constitutive law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Law {
+    /// Linear elasticity with a Drucker-Prager cone.
+    DruckerPrager,
+    /// Linear elasticity alone.
+    LinearElastic,
+}
+
+/// How the Drucker-Prager cone is matched to the Mohr-Coulomb angle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cone {
+    /// Through the triaxial compression corners of the Mohr-Coulomb pyramid.
+    #[default]
+    TriaxialCompression,
+    /// Through its triaxial extension corners.
+    TriaxialExtension,
+    /// The cone that gives the Mohr-Coulomb strength in plane strain.
+    PlaneStrain,
+    /// Equations 3 and 4 of the paper as printed.
+    AsPrinted,
+}
+
+/// The Drucker-Prager parameters of a material, defaults filled in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DruckerPrager {
+    /// Mohr-Coulomb friction angle, degrees.
+    pub friction_angle_deg: f64,
+    /// Cohesion, Pa.
+    pub cohesion_pa: f64,
+    /// Dilatancy angle, degrees.
+    pub dilatancy_angle_deg: f64,
+    /// Matching of the cone.
+    pub cone: Cone,
+    /// Largest mean tension, Pa.
+    pub tension_cutoff_pa: f64,
+    /// Whether opened volume must close before pressure builds up.
+    pub void_tracking: bool,
+}
+
+impl Material {
+    /// The Drucker-Prager parameters; `None` for an elastic material. In a validated case the two cases are exhaustive.
+    pub fn drucker_prager(&self) -> Option<DruckerPrager> {
+        match self.law {
+            Law::LinearElastic => None,
+            Law::DruckerPrager => Some(DruckerPrager {
+                friction_angle_deg: self.friction_angle_deg?,
+                cohesion_pa: self.cohesion_pa.unwrap_or(0.0),
+                dilatancy_angle_deg: self.dilatancy_angle_deg.unwrap_or(0.0),
+                cone: self.cone.unwrap_or_default(),
+                tension_cutoff_pa: self.tension_cutoff_pa.unwrap_or(0.0),
+                void_tracking: self.void_tracking.unwrap_or(true),
+            }),
+        }
+    }
+
+    /// P-wave modulus E (1 - nu) / ((1 + nu)(1 - 2 nu)), Pa.
+    pub fn p_wave_modulus_pa(&self) -> f64 {
+        let nu = self.poisson;
+        self.young_pa * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    }
+
+    /// Speed of compression waves, m/s.
+    pub fn p_wave_speed_m_per_s(&self) -> f64 {
+        (self.p_wave_modulus_pa() / self.density_kg_per_m3).sqrt()
+    }
+
+    pub(super) fn resolve(&mut self) {
+        if let Some(resolved) = self.drucker_prager() {
+            self.cohesion_pa = Some(resolved.cohesion_pa);
+            self.dilatancy_angle_deg = Some(resolved.dilatancy_angle_deg);
+            self.cone = Some(resolved.cone);
+            self.tension_cutoff_pa = Some(resolved.tension_cutoff_pa);
+            self.void_tracking = Some(resolved.void_tracking);
+        }
+    }
+}

@@ -1,0 +1,393 @@
+//! The case file: everything a user can write, one struct per TOML table.
+//!
+//! Field names are the keys of the file and end in their unit. The structs say what a key means and what it is when left
+//! out; whether a value makes sense is decided in [`validate`](super::validate). Unknown keys are refused everywhere.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::boundary::Boundary;
+use super::material::Material;
+
+/// Most particles a case may have; above this it is refused before any memory is asked for.
+pub const MAX_PARTICLES: f64 = 2.0e7;
+/// Most grid cells the domain may hold.
+pub const MAX_GRID_CELLS: f64 = 5.0e7;
+/// Most time steps a run may take.
+pub const MAX_TIME_STEPS: f64 = 1.0e9;
+
+/// A complete case: what is simulated, how it is measured and with which numerical settings.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// One line that names the case in reports and plots.
+    pub title: String,
+    /// Gravity and the inclination of the flume.
+    pub gravity: Gravity,
+    /// Background grid and the number of particles per cell.
+    pub grid: Grid,
+    /// The box outside which material is removed.
+    pub domain: Domain,
+    /// Materials by name; bodies refer to them.
+    pub materials: BTreeMap<String, Material>,
+    /// Rectangles filled with material at the start; at least one.
+    pub bodies: Vec<Body>,
+    /// Rigid planes, walls and gates.
+    #[serde(default)]
+    pub boundaries: Vec<Boundary>,
+    /// Friction of the channel's side walls.
+    #[serde(default)]
+    pub side_walls: SideWalls,
+    /// Settling, tilting and the run itself.
+    pub stages: Stages,
+    /// What is measured.
+    #[serde(default)]
+    pub gauges: Gauges,
+    /// Files written besides the results.
+    #[serde(default)]
+    pub output: Output,
+    /// Numerical settings.
+    #[serde(default)]
+    pub numerics: Numerics,
+}
+
+/// Gravity, in the frame of the flume: x runs down the bed, y is perpendicular to it.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// Magnitude, m/s^2, not negative. Default 9.81.
+    #[serde(default = "default_gravity_magnitude")]
+    pub magnitude_m_per_s2: f64,
+    /// Angle of the x axis below the horizontal during the run, degrees, in \[-90, 90\].
+    pub inclination_deg: f64,
+    /// The same angle while the material settles, degrees, in \[-90, 90\]. Default: `inclination_deg`.
+    pub settle_inclination_deg: Option<f64>,
+}
+
+/// Background grid.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// Cell size h, m, positive.
+    pub spacing_m: f64,
+    /// Width of the channel, perpendicular to the plane of the simulation, m, positive.
+    pub thickness_m: f64,
+    /// Interpolation between particles and grid nodes. Default `ugimp`.
+    #[serde(default)]
+    pub shape_function: ShapeFunction,
+    /// Particles in a full cell: 1, 4, 9 or 16. Default 4.
+    #[serde(default = "default_particles_per_cell")]
+    pub particles_per_cell: u32,
+}
+
+/// Interpolation between particles and grid nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShapeFunction {
+    /// Linear hat functions of a point particle (the original MPM).
+    Linear,
+    /// Uniform generalised interpolation: hat functions averaged over the particle's initial square.
+    #[default]
+    Ugimp,
+    /// Quadratic B-splines.
+    Bspline,
+}
+
+/// The box that holds the simulation. Material that leaves it is removed, counted and reported.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Least and greatest x, m.
+    pub x_m: [f64; 2],
+    /// Least and greatest y, m.
+    pub y_m: [f64; 2],
+}
+
+/// A rectangle filled with one material at the start.
+///
+/// Particles sit on a square lattice of spacing h / sqrt(particles per cell) in the axes of the rectangle, the first one
+/// half a spacing inside its lower left corner.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name, not empty, different from that of every other body.
+    pub name: String,
+    /// Name of a material in `materials`.
+    pub material: String,
+    /// Left and right edge before rotation, m, increasing.
+    pub x_m: [f64; 2],
+    /// Lower and upper edge before rotation, m, increasing.
+    pub y_m: [f64; 2],
+    /// Rotation about the corner (x_m\[0\], y_m\[0\]), degrees, counter-clockwise, in \[-360, 360\]. Default 0.
+    #[serde(default)]
+    pub rotation_deg: f64,
+    /// Velocity at the start, m/s, \[x, y\]. Default zero.
+    #[serde(default)]
+    pub velocity_m_per_s: [f64; 2],
+    /// The mass the body is meant to have, kg, positive. A check, not an input: refused unless density x area x thickness
+    /// gives it to 0.1 %.
+    pub mass_kg: Option<f64>,
+}
+
+/// The channel's two side walls, whose friction is averaged over its width.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SideWalls {
+    /// Coulomb friction coefficient, not negative. Default 0 (no side walls).
+    pub friction: f64,
+}
+
+/// The stages of a run, in the order in which they happen.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stages {
+    /// Settling under gravity with the gate closed. Left out: the run starts from zero stress.
+    pub settle: Option<Settle>,
+    /// Tilting from `settle_inclination_deg` to `inclination_deg`. Left out: settles at `inclination_deg` directly.
+    pub tilt: Option<Tilt>,
+    /// The run; the gate opens and the clock starts at its beginning.
+    pub run: Run,
+}
+
+/// Settling under gravity with damping.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settle {
+    /// Rate at which the damping removes momentum, 1/s, not negative.
+    pub damping_per_s: f64,
+    /// The stage ends when rms speed / sqrt(g x height of the body) falls below this; positive.
+    pub residual: f64,
+    /// An error if the residual is not reached by this time, s, positive.
+    pub max_time_s: f64,
+}
+
+/// Tilting of the flume, followed by a second settling.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tilt {
+    /// Time over which the direction of gravity turns at a steady rate, s, positive.
+    pub duration_s: f64,
+}
+
+/// The run itself.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// The run ends at this time after the gate opens, s, positive.
+    pub end_time_s: f64,
+    /// End earlier, when the kinetic energy is below 1e-4 of what was released and the force is steady. Default true.
+    #[serde(default = "yes")]
+    pub stop_at_rest: bool,
+}
+
+/// What is measured during the run. Every field may be left out.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Gauges {
+    /// Name of the boundary whose force is measured.
+    pub barrier: Option<String>,
+    /// Name of the boundary whose friction holds the deposit.
+    pub base: Option<String>,
+    /// Samples per second, Hz, positive; a sample is the mean over its interval. Default 1000.
+    pub sample_rate_hz: f64,
+    /// Flow depth and velocity are recorded at these x, m, inside the domain. Default none.
+    pub stations_m: Vec<f64>,
+    /// Least and greatest x of the velocity field, m, inside the domain. Given together with `window_y_m` or not at all.
+    pub window_x_m: Option<[f64; 2]>,
+    /// Least and greatest y of the velocity field, m, inside the domain.
+    pub window_y_m: Option<[f64; 2]>,
+    /// Times of the snapshots, s, increasing, from 0 to `end_time_s`. Default none.
+    pub field_times_s: Vec<f64>,
+}
+
+impl Default for Gauges {
+    fn default() -> Self {
+        Gauges {
+            barrier: None,
+            base: None,
+            sample_rate_hz: 1000.0,
+            stations_m: Vec::new(),
+            window_x_m: None,
+            window_y_m: None,
+            field_times_s: Vec::new(),
+        }
+    }
+}
+
+/// Files written besides the results.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Time between VTK files, s; 0 writes none. Default 0.02.
+    pub vtk_interval_s: f64,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Output {
+            vtk_interval_s: 0.02,
+        }
+    }
+}
+
+/// Numerical settings.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Numerics {
+    /// Order of the stress update in a step. Default `musl`.
+    pub scheme: Scheme,
+    /// Time step as a share of h / (P-wave speed + particle speed), in (0, 1\]. Default 0.3.
+    pub cfl: f64,
+    /// Share of the PIC velocity update in each step, in \[0, 1\]; excludes `pic_rate_per_s`. Default 5e-4.
+    pub pic_fraction: Option<f64>,
+    /// The same per second, 1/s, not negative: independent of the time step.
+    pub pic_rate_per_s: Option<f64>,
+    /// Upper bound of the time step, s, positive. Default none.
+    pub max_time_step_s: Option<f64>,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Numerics {
+            scheme: Scheme::Musl,
+            cfl: 0.3,
+            pic_fraction: None,
+            pic_rate_per_s: None,
+            max_time_step_s: None,
+        }
+    }
+}
+
+/// Order of the stress update in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scheme {
+    /// Update stress first.
+    Usf,
+    /// Update stress last.
+    Usl,
+    /// Modified update stress last: grid velocities are mapped back from the particles before the stress update.
+    #[default]
+    Musl,
+}
+
+/// How much of the PIC velocity update is mixed into FLIP.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pic {
+    /// This share in each step.
+    FractionPerStep(f64),
+    /// This rate per second.
+    RatePerSecond(f64),
+}
+
+impl Numerics {
+    /// `pic_fraction` when none is given, as in the paper.
+    pub const DEFAULT_PIC_FRACTION: f64 = 5.0e-4;
+
+    /// The PIC share in force.
+    pub fn pic(&self) -> Pic {
+        match (self.pic_fraction, self.pic_rate_per_s) {
+            (Some(fraction), _) => Pic::FractionPerStep(fraction),
+            (None, Some(rate)) => Pic::RatePerSecond(rate),
+            (None, None) => Pic::FractionPerStep(Self::DEFAULT_PIC_FRACTION),
+        }
+    }
+}
+
+impl Gravity {
+    /// Inclination while the material settles, degrees.
+    pub fn settle_inclination_or_default_deg(&self) -> f64 {
+        self.settle_inclination_deg.unwrap_or(self.inclination_deg)
+    }
+}
+
+impl Grid {
+    /// Distance between neighbouring particles at the start, m.
+    pub fn particle_spacing_m(&self) -> f64 {
+        self.spacing_m / f64::from(self.particles_per_cell).sqrt()
+    }
+}
+
+impl Body {
+    /// Length and height of the rectangle, m.
+    pub fn size_m(&self) -> [f64; 2] {
+        [self.x_m[1] - self.x_m[0], self.y_m[1] - self.y_m[0]]
+    }
+
+    /// Particles along the length and the height of the rectangle, for this particle spacing, as whole numbers. Kept as
+    /// floats because a mistyped case may ask for more than an integer holds.
+    pub fn particle_counts(&self, particle_spacing_m: f64) -> [f64; 2] {
+        // Points at (i + 1/2) s inside the length L: i + 1/2 <= L/s, with room for rounding.
+        self.size_m().map(|length| {
+            (length / particle_spacing_m + 0.5 + 1.0e-9)
+                .floor()
+                .max(0.0)
+        })
+    }
+}
+
+impl Case {
+    /// Fills in every default that depends on another value, so that the case written back to TOML shows all inputs.
+    pub fn resolve(&mut self) {
+        self.gravity
+            .settle_inclination_deg
+            .get_or_insert(self.gravity.inclination_deg);
+        if self.numerics.pic_rate_per_s.is_none() {
+            self.numerics
+                .pic_fraction
+                .get_or_insert(Numerics::DEFAULT_PIC_FRACTION);
+        }
+        self.materials.values_mut().for_each(Material::resolve);
+        for boundary in &mut self.boundaries {
+            boundary.resolve(&self.grid);
+        }
+    }
+
+    /// The case as a TOML document.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(self)
+    }
+
+    /// Distance between neighbouring particles at the start, m.
+    pub fn particle_spacing_m(&self) -> f64 {
+        self.grid.particle_spacing_m()
+    }
+
+    /// Number of particles at the start.
+    pub fn particle_count_estimate(&self) -> f64 {
+        let spacing = self.particle_spacing_m();
+        self.bodies
+            .iter()
+            .map(|body| body.particle_counts(spacing))
+            .map(|[nx, ny]| nx * ny)
+            .sum()
+    }
+
+    /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`.
+    /// Infinite if there is no body.
+    pub fn time_step_estimate_s(&self) -> f64 {
+        let speed = |body: &Body| {
+            let wave = self
+                .materials
+                .get(&body.material)
+                .map_or(0.0, Material::p_wave_speed_m_per_s);
+            wave + body.velocity_m_per_s[0].hypot(body.velocity_m_per_s[1])
+        };
+        let fastest = self.bodies.iter().map(speed).fold(0.0, f64::max);
+        let step = self.numerics.cfl * self.grid.spacing_m / fastest;
+        step.min(self.numerics.max_time_step_s.unwrap_or(f64::INFINITY))
+    }
+}
+
+fn default_gravity_magnitude() -> f64 {
+    9.81
+}
+
+fn default_particles_per_cell() -> u32 {
+    4
+}
+
+fn yes() -> bool {
+    true
+}

@@ -1,0 +1,131 @@
+//! Whether tables are where tables belong, before serde sees the document: serde would take an array for a struct, and
+//! ignore the third of three numbers where two belong.
+
+use toml::de::{DeTable, DeValue};
+
+use super::path::KeyPath;
+use super::validate::Problem;
+
+const TABLES: [&str; 9] = [
+    "gravity",
+    "grid",
+    "domain",
+    "materials",
+    "side_walls",
+    "stages",
+    "gauges",
+    "output",
+    "numerics",
+];
+const TABLES_OF_STAGES: [&str; 3] = ["settle", "tilt", "run"];
+const LISTS: [&str; 2] = ["bodies", "boundaries"];
+const PAIRS: [&str; 7] = [
+    "x_m",
+    "y_m",
+    "velocity_m_per_s",
+    "point_m",
+    "foot_m",
+    "window_x_m",
+    "window_y_m",
+];
+
+/// Tables, lists of tables and pairs of numbers that are something else.
+pub fn misplaced(root: &DeTable<'_>) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for (key, value) in root.iter() {
+        let (key, value) = (key.get_ref().as_ref(), value.get_ref());
+        let path = KeyPath::top(key);
+        if TABLES.contains(&key) {
+            tables(&path, value, &mut problems);
+        } else if LISTS.contains(&key) {
+            list(&path, value, &mut problems);
+        }
+    }
+    problems
+}
+
+fn tables(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
+    let Some(table) = expect_table(path, value, problems) else {
+        return;
+    };
+    let is_materials = path.last_key() == "materials";
+    if is_materials && !table.is_empty() && !table.values().any(|value| value.get_ref().is_table())
+    {
+        return problems.push(Problem {
+            path: path.clone(),
+            what: "materials has no named material".to_owned(),
+            value: String::new(),
+            allowed: "[materials.NAME] tables".to_owned(),
+            fix: "give the material a name: [materials.sand] instead of [materials]".to_owned(),
+        });
+    }
+    for (key, value) in table.iter() {
+        let key = key.get_ref().as_ref();
+        if is_materials || path.last_key() == "stages" && TABLES_OF_STAGES.contains(&key) {
+            expect_table(&path.key(key), value.get_ref(), problems);
+        }
+    }
+    pairs(path, table, problems);
+}
+
+fn list(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
+    let tables = value
+        .as_array()
+        .filter(|array| array.iter().all(|value| value.get_ref().is_table()));
+    match tables {
+        Some(array) => {
+            for (index, table) in array.iter().enumerate() {
+                if let Some(table) = table.get_ref().as_table() {
+                    pairs(&path.index(index), table, problems);
+                }
+            }
+        }
+        None => problems.push(Problem {
+            path: path.clone(),
+            what: format!("{path} is not a list of tables"),
+            value: String::new(),
+            allowed: format!("any number of [[{path}]] tables"),
+            fix: format!("write [[{path}]], with double brackets, above each of them"),
+        }),
+    }
+}
+
+fn expect_table<'a, 'i>(
+    path: &KeyPath,
+    value: &'a DeValue<'i>,
+    problems: &mut Vec<Problem>,
+) -> Option<&'a DeTable<'i>> {
+    let table = value.as_table();
+    if table.is_none() {
+        let header = if path.to_string() == "materials" {
+            "materials.NAME".to_owned()
+        } else {
+            path.to_string()
+        };
+        problems.push(Problem {
+            path: path.clone(),
+            what: format!("{path} is not a table"),
+            value: String::new(),
+            allowed: format!("one [{header}] table"),
+            fix: format!("write [{header}], with single brackets, above its keys"),
+        });
+    }
+    table
+}
+
+fn pairs(path: &KeyPath, table: &DeTable<'_>, problems: &mut Vec<Problem>) {
+    for (key, value) in table.iter() {
+        let key = key.get_ref().as_ref();
+        let count = value.get_ref().as_array().map_or(2, |array| array.len());
+        if PAIRS.contains(&key) && count != 2 {
+            let path = path.key(key);
+            problems.push(Problem {
+                what: format!("{path} has {count} values instead of two"),
+                path,
+                value: String::new(),
+                allowed: "two numbers".to_owned(),
+                fix: format!("write two numbers: {key} = [0.0, 1.0]"),
+            });
+        }
+    }
+}

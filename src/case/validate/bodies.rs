@@ -1,0 +1,205 @@
+//! Bodies: their names, materials and masses, and what they may not overlap.
+
+use super::{Checker, text};
+use crate::case::boundary::Shape;
+use crate::case::geometry::{Penetration, penetration_of_plane, penetration_of_rectangle};
+use crate::case::path::KeyPath;
+use crate::case::schema::Body;
+use crate::case::suggest::did_you_mean;
+
+/// Overlap up to this depth is rounding, m.
+const OVERLAP_TOLERANCE_M: f64 = 1.0e-9;
+/// Largest relative difference between `mass_kg` and density x area x thickness.
+const MASS_TOLERANCE: f64 = 1.0e-3;
+
+impl Checker<'_> {
+    pub(super) fn bodies(&mut self) {
+        let list = KeyPath::top("bodies");
+        if self.case.bodies.is_empty() {
+            let what = "the case has no body".to_owned();
+            self.problem(
+                &list,
+                what,
+                &"",
+                "at least one of [[bodies]]",
+                "add [[bodies]] with a material to simulate",
+            );
+        }
+        let names: Vec<&str> = self
+            .case
+            .bodies
+            .iter()
+            .map(|body| body.name.as_str())
+            .collect();
+        self.names(&list, &names);
+        for (index, body) in self.case.bodies.iter().enumerate() {
+            let at = list.index(index);
+            self.interval(&at.key("x_m"), body.x_m);
+            self.interval(&at.key("y_m"), body.y_m);
+            self.angle(&at.key("rotation_deg"), body.rotation_deg, 360.0);
+            let names = self.case.materials.keys().map(String::as_str);
+            if !self.case.materials.contains_key(&body.material) {
+                let fix = did_you_mean(&body.material, names);
+                self.not_allowed(
+                    &at.key("material"),
+                    &body.material,
+                    "the name of one of [materials.NAME]",
+                    &fix,
+                );
+            }
+            self.mass(&at, body);
+        }
+        for (index, body) in self
+            .case
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(_, body)| has_geometry(body))
+        {
+            let at = list.index(index);
+            self.inside_domain(&at, body);
+            self.clear_of_boundaries(&at, body);
+            let others = self.case.bodies[..index]
+                .iter()
+                .filter(|other| has_geometry(other));
+            for other in others {
+                let penetration = penetration_of_rectangle(&body.corners_m(), &other.corners_m());
+                self.overlap(&at, body, penetration, &format!("body `{}`", other.name));
+            }
+        }
+    }
+
+    fn mass(&mut self, at: &KeyPath, body: &Body) {
+        let Some(mass) = body.mass_kg else { return };
+        let path = at.key("mass_kg");
+        self.positive(&path, mass, 30.0);
+        let Some(material) = self.case.materials.get(&body.material) else {
+            return;
+        };
+        let [length, height] = body.size_m();
+        let (density, thickness) = (material.density_kg_per_m3, self.case.grid.thickness_m);
+        let actual = density * length * height * thickness;
+        let usable = [length, height, density, thickness, mass]
+            .iter()
+            .all(|x| *x > 0.0)
+            && actual.is_finite();
+        if usable && (mass - actual).abs() > MASS_TOLERANCE * actual {
+            let what = format!(
+                "{path} = {} differs from density x area x thickness = {} x {} x {} = {} kg",
+                text(mass),
+                text(density),
+                text(length * height),
+                text(thickness),
+                text(actual),
+            );
+            let top = body.y_m[0] + mass / (density * length * thickness);
+            let fix = format!(
+                "materials.{}.density_kg_per_m3 = {}, or y_m = [{}, {}], or leave mass_kg out",
+                body.material,
+                text(mass / (length * height * thickness)),
+                text(body.y_m[0]),
+                text(top),
+            );
+            self.problem(&path, what, &mass, "equal to 0.1 %", &fix);
+        }
+    }
+
+    fn inside_domain(&mut self, at: &KeyPath, body: &Body) {
+        let domain = &self.case.domain;
+        for (axis, key, [low, high]) in [(0, "x_m", domain.x_m), (1, "y_m", domain.y_m)] {
+            let reach = body.corners_m().map(|corner| corner[axis]);
+            let least = reach.iter().copied().fold(f64::INFINITY, f64::min);
+            let greatest = reach.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let outside = (low - least).max(greatest - high);
+            if low < high && outside > OVERLAP_TOLERANCE_M {
+                let what = format!(
+                    "body `{}` reaches {} m out of the domain",
+                    body.name,
+                    text(outside)
+                );
+                let allowed = format!("inside domain.{key} = [{}, {}]", text(low), text(high));
+                let edges = if axis == 0 { body.x_m } else { body.y_m };
+                self.problem(
+                    &at.key(key),
+                    what,
+                    &edges,
+                    &allowed,
+                    "move the body, or enlarge the domain",
+                );
+            }
+        }
+    }
+
+    fn clear_of_boundaries(&mut self, at: &KeyPath, body: &Body) {
+        for (index, boundary) in self.case.boundaries.iter().enumerate() {
+            let usable = self.is_clean(&KeyPath::top("boundaries").index(index))
+                && self.is_clean(&KeyPath::top("grid").key("spacing_m"));
+            let Some(shape) = boundary.shape(&self.case.grid).filter(|_| usable) else {
+                continue;
+            };
+            let penetration = match shape {
+                Shape::Plane {
+                    point_m,
+                    normal_deg,
+                } => penetration_of_plane(&body.corners_m(), point_m, normal_deg),
+                Shape::Wall(wall) | Shape::Gate(wall, _) => {
+                    penetration_of_rectangle(&body.corners_m(), &wall.corners_m())
+                }
+            };
+            self.overlap(
+                at,
+                body,
+                penetration,
+                &format!("boundary `{}`", boundary.name),
+            );
+        }
+    }
+
+    fn overlap(&mut self, at: &KeyPath, body: &Body, penetration: Penetration, other: &str) {
+        let Penetration { depth_m, way_out } = penetration;
+        if depth_m <= OVERLAP_TOLERANCE_M {
+            return;
+        }
+        let what = format!(
+            "body `{}` overlaps {other} by {} m",
+            body.name,
+            text(depth_m)
+        );
+        let axis = usize::from(way_out[1].abs() > way_out[0].abs());
+        let (key, edges) = if axis == 0 {
+            ("x_m", body.x_m)
+        } else {
+            ("y_m", body.y_m)
+        };
+        let straight = body.rotation_deg == 0.0 && way_out[axis].abs() == 1.0;
+        let fix = match cut(edges, way_out[axis] * depth_m) {
+            Some([low, high]) if straight => format!("use {key} = [{}, {}]", text(low), text(high)),
+            _ => {
+                let [x, y] = way_out.map(|component| text(component * depth_m));
+                format!("move the body by [{x}, {y}] m")
+            }
+        };
+        let allowed = format!("outside {other}, or touching it");
+        self.problem(&at.key(key), what, &edges, &allowed, &fix);
+    }
+}
+
+/// An interval shortened by this much at its lower end, or, if negative, at its upper end; `None` if nothing is left.
+fn cut([low, high]: [f64; 2], by: f64) -> Option<[f64; 2]> {
+    let shorter = if by > 0.0 {
+        [low + by, high]
+    } else {
+        [low, high + by]
+    };
+    // Without the rounding of the subtraction: 0, not 1.4e-17.
+    let shorter = shorter.map(|edge| (edge * 1.0e12).round() / 1.0e12);
+    (shorter[1] - shorter[0] > OVERLAP_TOLERANCE_M).then_some(shorter)
+}
+
+/// Whether the edges of a body are in order, so that it has corners and an area.
+pub(super) fn has_geometry(body: &Body) -> bool {
+    let [length, height] = body.size_m();
+    [length, height, body.rotation_deg.abs() + 1.0]
+        .iter()
+        .all(|x| x.is_finite() && *x > 0.0)
+}

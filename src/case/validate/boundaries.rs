@@ -1,0 +1,170 @@
+//! Boundaries: which fields belong to which kind, and their ranges.
+
+use serde::Serialize;
+
+use super::{Checker, toml_text};
+use crate::case::boundary::{Boundary, BoundaryKind, ContactKind, OpeningKind};
+use crate::case::path::KeyPath;
+
+/// Whether a field belongs to a boundary.
+#[derive(Clone, Copy, PartialEq)]
+enum Need {
+    Required,
+    Optional,
+    Refused,
+}
+use Need::{Optional, Refused, Required};
+
+impl Checker<'_> {
+    pub(super) fn boundaries(&mut self) {
+        let list = KeyPath::top("boundaries");
+        let names: Vec<&str> = self
+            .case
+            .boundaries
+            .iter()
+            .map(|boundary| boundary.name.as_str())
+            .collect();
+        self.names(&list, &names);
+        for (index, boundary) in self.case.boundaries.iter().enumerate() {
+            let at = list.index(index);
+            self.fields_of_kind(&at, boundary);
+            self.contact(&at, boundary);
+            self.opening(&at, boundary);
+            for (key, number, example) in [
+                ("height_m", boundary.height_m, 0.6),
+                ("thickness_m", boundary.thickness_m, 0.1),
+                ("lift_speed_m_per_s", boundary.lift_speed_m_per_s, 1.0),
+                ("opening_m", boundary.opening_m, 0.05),
+            ] {
+                self.positive(&at.key(key), number.unwrap_or(example), example);
+            }
+            for (key, angle) in [
+                ("normal_deg", boundary.normal_deg),
+                ("inclination_deg", boundary.inclination_deg),
+            ] {
+                self.angle(&at.key(key), angle.unwrap_or(0.0), 360.0);
+            }
+        }
+    }
+
+    fn field<T: Serialize>(
+        &mut self,
+        at: &KeyPath,
+        (key, given): (&str, &Option<T>),
+        need: Need,
+        of: &str,
+    ) {
+        let path = at.key(key);
+        match (given, need) {
+            (None, Required) => {
+                let what = format!("{path} is missing");
+                self.problem(
+                    &path,
+                    what,
+                    &"",
+                    &format!("required by {of}"),
+                    &format!("add a line such as {key} = {}", example(key)),
+                );
+            }
+            (Some(value), Refused) => {
+                let what = format!("{path} = {} does not belong to {of}", toml_text(value));
+                self.problem(
+                    &path,
+                    what,
+                    value,
+                    &format!("{of} does not use {key}"),
+                    "remove the line",
+                );
+            }
+            _ => {}
+        }
+    }
+
+    fn fields_of_kind(&mut self, at: &KeyPath, boundary: &Boundary) {
+        let (plane, wall, optional, of) = match boundary.kind {
+            BoundaryKind::Plane => (Required, Refused, Refused, "kind = \"plane\""),
+            BoundaryKind::Wall => (Refused, Required, Optional, "kind = \"wall\""),
+            BoundaryKind::Gate => (Refused, Required, Optional, "kind = \"gate\""),
+        };
+        self.field(at, ("point_m", &boundary.point_m), plane, of);
+        self.field(at, ("normal_deg", &boundary.normal_deg), plane, of);
+        self.field(at, ("foot_m", &boundary.foot_m), wall, of);
+        self.field(at, ("height_m", &boundary.height_m), wall, of);
+        self.field(
+            at,
+            ("inclination_deg", &boundary.inclination_deg),
+            optional,
+            of,
+        );
+        self.field(at, ("material_side", &boundary.material_side), optional, of);
+        self.field(at, ("thickness_m", &boundary.thickness_m), optional, of);
+    }
+
+    fn contact(&mut self, at: &KeyPath, boundary: &Boundary) {
+        let (need, of) = match boundary.contact {
+            ContactKind::Smooth => (Refused, "contact = \"smooth\""),
+            ContactKind::Coulomb => (Required, "contact = \"coulomb\""),
+            ContactKind::Rough => (Refused, "contact = \"rough\""),
+        };
+        let path = at.key("friction");
+        match boundary.friction {
+            None if need == Required => {
+                let fix = "add a line such as friction = 0.4, or use contact = \"smooth\"";
+                self.problem(
+                    &path,
+                    format!("{path} is missing"),
+                    &"",
+                    &format!("required by {of}"),
+                    fix,
+                );
+            }
+            Some(friction) if need == Refused => {
+                let what = format!("{path} = {} does not belong to {of}", toml_text(&friction));
+                let fix = "use contact = \"coulomb\", or remove the friction";
+                self.problem(
+                    &path,
+                    what,
+                    &friction,
+                    "friction only with contact = \"coulomb\"",
+                    fix,
+                );
+            }
+            friction => self.not_negative(&path, friction.unwrap_or(0.0), 0.4),
+        }
+    }
+
+    fn opening(&mut self, at: &KeyPath, boundary: &Boundary) {
+        let opening = boundary.opening.unwrap_or_default();
+        let (way, speed, height, of) = match (boundary.kind, opening) {
+            (BoundaryKind::Plane, _) => (Refused, Refused, Refused, "kind = \"plane\""),
+            (BoundaryKind::Wall, _) => (Refused, Refused, Refused, "kind = \"wall\""),
+            (BoundaryKind::Gate, OpeningKind::Vanish) => {
+                (Optional, Refused, Refused, "opening = \"vanish\"")
+            }
+            (BoundaryKind::Gate, OpeningKind::Lift) => {
+                (Optional, Required, Refused, "opening = \"lift\"")
+            }
+            (BoundaryKind::Gate, OpeningKind::Raise) => {
+                (Optional, Optional, Required, "opening = \"raise\"")
+            }
+        };
+        self.field(at, ("opening", &boundary.opening), way, of);
+        self.field(
+            at,
+            ("lift_speed_m_per_s", &boundary.lift_speed_m_per_s),
+            speed,
+            of,
+        );
+        self.field(at, ("opening_m", &boundary.opening_m), height, of);
+    }
+}
+
+fn example(key: &str) -> &'static str {
+    match key {
+        "point_m" | "foot_m" => "[0.0, 0.0]",
+        "normal_deg" => "90",
+        "height_m" => "0.6",
+        "lift_speed_m_per_s" => "1.0",
+        _ => "0.05",
+    }
+}

@@ -1,0 +1,117 @@
+//! What a case would cost: particles, grid cells and time steps, refused before any memory is asked for.
+
+use super::bodies::has_geometry;
+use super::{Checker, text};
+use crate::case::path::KeyPath;
+use crate::case::schema::{Body, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS};
+
+impl Checker<'_> {
+    pub(super) fn cost(&mut self) {
+        let parts = ["grid", "domain", "bodies", "materials"].map(KeyPath::top);
+        let particles = self.case.grid.particles_per_cell;
+        if self.is_clean(&parts[0]) && particles > 0 {
+            self.particles();
+            // An interval of the domain that is wrong is reported by itself, and so is what follows from it.
+            if self.is_clean(&parts[1]) {
+                self.memory();
+            }
+            if parts.iter().all(|part| self.is_clean(part)) {
+                self.time_steps();
+            }
+        }
+    }
+
+    fn particles(&mut self) {
+        let (case, spacing) = (self.case, self.case.particle_spacing_m());
+        for (index, body) in case
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(_, body)| has_geometry(body))
+        {
+            let at = KeyPath::top("bodies").index(index);
+            let [along, across] = body.particle_counts(spacing);
+            for (key, edges, count) in [("x_m", body.x_m, along), ("y_m", body.y_m, across)] {
+                if count == 0.0 {
+                    let what = format!("body `{}` holds no particle", body.name);
+                    let allowed = format!(
+                        "sides of at least half the particle spacing of {} m",
+                        text(spacing)
+                    );
+                    let fix = "enlarge the body, or use a smaller grid.spacing_m";
+                    self.problem(&at.key(key), what, &edges, &allowed, fix);
+                }
+            }
+        }
+    }
+
+    /// Refuses a cell size that asks for more memory than there is.
+    fn memory(&mut self) {
+        let (case, domain) = (self.case, &self.case.domain);
+        let bodies = || case.bodies.iter().filter(|body| has_geometry(body));
+        let spacing = case.grid.spacing_m;
+        let particles: f64 = bodies()
+            .map(|body| body.particle_counts(case.particle_spacing_m()))
+            .map(|[along, across]| along * across)
+            .sum();
+        let bodies_area: f64 = bodies()
+            .map(Body::size_m)
+            .map(|[length, height]| length * height)
+            .sum();
+        let domain_area = (domain.x_m[1] - domain.x_m[0]) * (domain.y_m[1] - domain.y_m[0]);
+        let cells = domain_area / spacing.powi(2);
+
+        let per_cell = f64::from(case.grid.particles_per_cell);
+        let for_particles = rounded_up((bodies_area * per_cell / MAX_PARTICLES).sqrt());
+        let for_cells = rounded_up((domain_area / MAX_GRID_CELLS).sqrt());
+        let both = for_particles.max(for_cells);
+        for (count, of_what, limit, smallest) in [
+            (particles, "particles", MAX_PARTICLES, for_particles),
+            (cells, "grid cells in the domain", MAX_GRID_CELLS, for_cells),
+        ] {
+            if count > limit {
+                let path = KeyPath::top("grid").key("spacing_m");
+                let what = format!(
+                    "{path} = {} would give {count:.1e} {of_what}",
+                    text(spacing)
+                );
+                let allowed = format!(
+                    "at most {limit:.1e} {of_what}: spacing_m >= {}",
+                    text(smallest)
+                );
+                let fix = format!("use spacing_m = {} or more", text(both));
+                self.problem(&path, what, &spacing, &allowed, &fix);
+            }
+        }
+    }
+
+    fn time_steps(&mut self) {
+        let run = KeyPath::top("stages").key("run").key("end_time_s");
+        let (end, step) = (
+            self.case.stages.run.end_time_s,
+            self.case.time_step_estimate_s(),
+        );
+        if end.is_finite() && end / step > MAX_TIME_STEPS {
+            let what = format!(
+                "{run} = {} would take {:.1e} time steps",
+                text(end),
+                end / step
+            );
+            let allowed = format!(
+                "at most {MAX_TIME_STEPS:.1e} steps of {} s, the time step of this cell size and the fastest waves",
+                text(step)
+            );
+            let fix = format!(
+                "use end_time_s = {} or less, a larger grid.spacing_m, or a smaller young_pa",
+                text(step * MAX_TIME_STEPS)
+            );
+            self.problem(&run, what, &end, &allowed, &fix);
+        }
+    }
+}
+
+/// A length rounded up to two digits, so that it is accepted when a user copies it.
+fn rounded_up(length_m: f64) -> f64 {
+    let digit = 10.0_f64.powf(length_m.log10().floor() - 1.0);
+    (length_m * 1.001 / digit).ceil() * digit
+}

@@ -1,0 +1,165 @@
+//! Values that can be run and look like mistakes, mostly of units.
+
+use super::{Problem, text, toml_text};
+use crate::case::boundary::{Boundary, Shape};
+use crate::case::geometry::penetration_of_rectangle;
+use crate::case::material::Material;
+use crate::case::path::KeyPath;
+use crate::case::schema::{Case, Domain};
+
+/// An angle in degrees below this and above zero was probably meant in radians.
+const RADIANS_UP_TO: f64 = 1.6;
+
+struct Warnings(Vec<Problem>);
+
+impl Warnings {
+    fn add_if(&mut self, holds: bool, path: &KeyPath, value: f64, expected: &str, fix: &str) {
+        if holds {
+            self.0.push(Problem {
+                path: path.clone(),
+                what: format!("{path} = {} looks like a mistake", toml_text(&value)),
+                value: toml_text(&value),
+                allowed: expected.to_owned(),
+                fix: fix.to_owned(),
+            });
+        }
+    }
+
+    fn radians(&mut self, path: &KeyPath, angle: Option<f64>) {
+        let Some(angle) = angle else { return };
+        let fix = format!(
+            "if the angle is in radians, write {} degrees",
+            text(angle.to_degrees())
+        );
+        let holds = angle > 0.0 && angle < RADIANS_UP_TO;
+        self.add_if(holds, path, angle, "angles are in degrees", &fix);
+    }
+
+    fn material(&mut self, at: &KeyPath, material: &Material) {
+        let young = material.young_pa;
+        let fix = format!("if the value is in MPa, write {}", text(young * 1.0e6));
+        self.add_if(
+            young < 1.0e3,
+            &at.key("young_pa"),
+            young,
+            "Pa; soils have 1e5 to 1e9",
+            &fix,
+        );
+
+        let density = material.density_kg_per_m3;
+        let fix = if density < 100.0 {
+            format!(
+                "if the value is in g/cm^3 or t/m^3, write {}",
+                text(density * 1000.0)
+            )
+        } else {
+            "check the unit".to_owned()
+        };
+        let holds = !(100.0..=20000.0).contains(&density);
+        self.add_if(
+            holds,
+            &at.key("density_kg_per_m3"),
+            density,
+            "kg/m^3; dry sand has about 1500",
+            &fix,
+        );
+
+        if let Some(law) = material.drucker_prager() {
+            let friction = law.friction_angle_deg;
+            let fix = format!(
+                "if the angle is in radians, write {} degrees",
+                text(friction.to_degrees())
+            );
+            let holds = friction > 0.0 && friction < 1.0;
+            self.add_if(
+                holds,
+                &at.key("friction_angle_deg"),
+                friction,
+                "degrees; sand has about 30",
+                &fix,
+            );
+
+            let apex = law.cohesion_pa / friction.to_radians().tan();
+            let holds = friction > 0.0 && law.tension_cutoff_pa > apex * (1.0 + 1.0e-9);
+            let expected = format!(
+                "at most the apex of the cone, cohesion / tan(friction angle) = {} Pa",
+                text(apex)
+            );
+            let fix = "lower it, or raise cohesion_pa: above the apex it has no effect";
+            self.add_if(
+                holds,
+                &at.key("tension_cutoff_pa"),
+                law.tension_cutoff_pa,
+                &expected,
+                fix,
+            );
+        }
+    }
+}
+
+impl Warnings {
+    /// A wall outside the domain meets nothing.
+    fn outside(&mut self, at: &KeyPath, case: &Case, boundary: &Boundary) {
+        let Some(Shape::Wall(wall) | Shape::Gate(wall, _)) = boundary.shape(&case.grid) else {
+            return;
+        };
+        let Domain {
+            x_m: [left, right],
+            y_m: [low, high],
+        } = case.domain;
+        let domain = [[left, low], [right, low], [right, high], [left, high]];
+        if penetration_of_rectangle(&wall.corners_m(), &domain).depth_m <= 0.0 {
+            self.0.push(Problem {
+                path: at.key("foot_m"),
+                what: format!("boundary `{}` is outside the domain", boundary.name),
+                value: toml_text(&wall.foot_m),
+                allowed: "a wall that material can reach".to_owned(),
+                fix: "move the wall, or enlarge the domain".to_owned(),
+            });
+        }
+    }
+}
+
+pub(super) fn warnings(case: &Case) -> Vec<Problem> {
+    let mut warnings = Warnings(Vec::new());
+    let gravity = KeyPath::top("gravity");
+    warnings.radians(
+        &gravity.key("inclination_deg"),
+        Some(case.gravity.inclination_deg),
+    );
+    warnings.radians(
+        &gravity.key("settle_inclination_deg"),
+        case.gravity.settle_inclination_deg,
+    );
+    for (name, material) in &case.materials {
+        warnings.material(&KeyPath::top("materials").key(name), material);
+    }
+    for (index, boundary) in case.boundaries.iter().enumerate() {
+        let at = KeyPath::top("boundaries").index(index);
+        warnings.radians(&at.key("normal_deg"), boundary.normal_deg);
+        warnings.radians(&at.key("inclination_deg"), boundary.inclination_deg);
+        if let Some(friction) = boundary.friction {
+            let fix = format!(
+                "if it is an angle, write its tangent, {}",
+                text(friction.to_radians().tan())
+            );
+            warnings.add_if(
+                friction > 2.0,
+                &at.key("friction"),
+                friction,
+                "a coefficient, not an angle",
+                &fix,
+            );
+        }
+        warnings.outside(&at, case, boundary);
+    }
+    if let Some(tilt) = &case.stages.tilt {
+        let turn = case.gravity.inclination_deg - case.gravity.settle_inclination_or_default_deg();
+        let path = KeyPath::top("stages").key("tilt").key("duration_s");
+        let expected =
+            "a tilt from gravity.settle_inclination_deg to another gravity.inclination_deg";
+        let fix = "give settle_inclination_deg, or leave [stages.tilt] out";
+        warnings.add_if(turn == 0.0, &path, tilt.duration_s, expected, fix);
+    }
+    warnings.0
+}
