@@ -18,10 +18,20 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Covers `lo` to `hi` exactly, with about `count` ticks at multiples of 1, 2 or 5 times a power of ten.
+    /// Covers `lo` to `hi`, up to the next tick if that is very near, with about `count` ticks at multiples of 1, 2 or 5 times a power of ten.
     pub(super) fn exact(lo: f64, hi: f64, count: usize) -> Self {
         let (lo, hi) = widened(lo, hi);
-        Self::with_step(lo, hi, step(hi - lo, count))
+        let step = step(hi - lo, count);
+        let next = (hi / step).ceil() * step;
+        Self::with_step(
+            lo,
+            if next - hi < 0.005 * (hi - lo) {
+                next
+            } else {
+                hi
+            },
+            step,
+        )
     }
 
     /// Covers at least `lo` to `hi` and ends on ticks.

@@ -7,39 +7,23 @@ use plotters::style::text_anchor::HPos;
 
 use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
+use super::energy_layers::{Layer, columns, group, paint, stack, title};
 use super::labels::spread;
 use super::style::{
-    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, Spot, UNIT, VERMILION, YELLOW,
-    dashes, fill, lighten, line, render, stroke, text_width_px, units, write_at,
+    Canvas, GREY, INK, SMALL_PX, Spot, UNIT, dashes, fill, line, render, stroke, text_width_px,
+    units, write_at,
 };
 use crate::output::Table;
 
-/// Shares (of 1) below which a mechanism is counted among the others at all times.
-const NEGLIGIBLE: f64 = 0.002;
 /// Number of instants drawn at most.
 const INSTANTS: usize = 600;
 const HEIGHT_PX: i32 = 520;
 
-/// A mechanism and its share of the initial energy (percent) at the instants drawn.
-struct Layer {
-    name: String,
-    column: String,
-    colour: RGBColor,
-    share: Vec<f64>,
-}
-
-impl Layer {
-    fn largest(&self) -> f64 {
-        self.share
-            .iter()
-            .fold(0.0, |largest, v| largest.max(v.abs()))
-    }
-}
-
 /// Draws `out_svg` from an energy table: one area per column in J, stacked, and the residual of the balance as a line.
 ///
-/// Reads `time_s` and every column in `_j`; those in `gravitational_j`, `kinetic_j` and `elastic_j` of the first row make
-/// up the whole. Negative shares stack below zero. Mechanisms that never reach 0.2 % are drawn together as "other".
+/// Reads `time_s` and every column in `_j`; those in `gravitational_j`, `kinetic_j` and `elastic_j` of the first
+/// row make up the whole. Negative shares stack below zero, empty cells count as 0. Mechanisms that never reach
+/// 0.2 % are drawn together as "other".
 ///
 /// # Errors
 /// [`PlotError::File`] for a missing column or file, [`PlotError::Data`] for a table without rows or initial energy.
@@ -205,114 +189,6 @@ fn instants(table: &Table) -> Result<Vec<usize>, PlotError> {
 
 fn pick(values: &[f64], rows: &[usize]) -> Vec<f64> {
     rows.iter().map(|k| values[*k]).collect()
-}
-
-/// The energy columns from the bottom of the stack to its top: what is still there, then what was lost.
-fn columns(table: &Table) -> Vec<String> {
-    let rank = |name: &str| match name {
-        "gravitational_j" => 0,
-        "kinetic_j" => 1,
-        "elastic_j" => 2,
-        "plastic_j" => 3,
-        _ if name.starts_with("friction_") => 4,
-        "side_walls_j" => 5,
-        _ if name.starts_with("contact_") => 6,
-        "outflow_j" => 9,
-        "damping_j" => 8,
-        _ => 7,
-    };
-    let mut names: Vec<String> = table
-        .names()
-        .iter()
-        .filter(|name| name.ends_with("_j") && *name != "residual_j")
-        .cloned()
-        .collect();
-    names.sort_by_key(|name| rank(name));
-    names
-}
-
-/// What a column is called in the figure.
-fn title(column: &str) -> String {
-    let name = column.strip_suffix("_j").unwrap_or(column);
-    match name {
-        "plastic" => "plastic work".to_owned(),
-        "pic" => "velocity smoothing (PIC)".to_owned(),
-        "side_walls" => "friction, side walls".to_owned(),
-        _ => match name.split_once('_') {
-            Some((kind @ ("friction" | "contact"), boundary)) => {
-                format!("{kind}, {}", boundary.replace('_', " "))
-            }
-            _ => name.replace('_', " "),
-        },
-    }
-}
-
-/// Colours the layers; boundaries of the same mechanism get paler and paler tones of its colour.
-fn paint(layers: &mut [Layer]) {
-    let mut earlier: Vec<String> = Vec::new();
-    for layer in layers {
-        let kind = layer
-            .column
-            .split('_')
-            .next()
-            .unwrap_or_default()
-            .to_owned();
-        let base = match kind.as_str() {
-            "gravitational" => BLUE,
-            "kinetic" => SKY,
-            "elastic" => lighten(SKY, 0.6),
-            "plastic" => VERMILION,
-            "friction" => ORANGE,
-            "side" => YELLOW,
-            "contact" => PURPLE,
-            "pic" => GREEN,
-            "damping" => lighten(GREEN, 0.5),
-            _ => lighten(GREY, 0.4),
-        };
-        let same = earlier.iter().filter(|other| **other == kind).count();
-        layer.colour = lighten(base, 1.0 - 0.6f64.powi(same as i32));
-        earlier.push(kind);
-    }
-}
-
-/// Puts the negligible layers together at the end.
-fn group(layers: Vec<Layer>) -> Vec<Layer> {
-    let (mut kept, small): (Vec<Layer>, Vec<Layer>) = layers
-        .into_iter()
-        .partition(|layer| layer.largest() >= 100.0 * NEGLIGIBLE);
-    if small.iter().any(|layer| layer.largest() > 0.0) {
-        let instants = small[0].share.len();
-        let share = (0..instants)
-            .map(|k| small.iter().map(|layer| layer.share[k]).sum())
-            .collect();
-        kept.push(Layer {
-            name: "other".to_owned(),
-            column: String::new(),
-            colour: GREY,
-            share,
-        });
-    }
-    kept
-}
-
-/// Lower and upper end of each layer at each instant: positive shares pile up from zero, negative ones down from it.
-fn stack(layers: &[Layer], instants: usize) -> Vec<Vec<(f64, f64)>> {
-    let mut above = vec![0.0; instants];
-    let mut below = vec![0.0; instants];
-    let mut band = |layer: &Layer| {
-        let place = |(k, share): (usize, &f64)| {
-            let pile: &mut f64 = if *share >= 0.0 {
-                &mut above[k]
-            } else {
-                &mut below[k]
-            };
-            let from = *pile;
-            *pile += share;
-            (from.min(*pile), from.max(*pile))
-        };
-        layer.share.iter().enumerate().map(place).collect()
-    };
-    layers.iter().map(&mut band).collect()
 }
 
 /// Fills a layer, with a thin white line on top to part it from the next.

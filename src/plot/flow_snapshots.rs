@@ -6,6 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 use super::axes::Axis;
+use super::panels::{Extent, FOOT_PX, Layout, MARGIN_PX, Point, TITLE_PX, Turn};
 use super::style::{
     Canvas, GREY, INK, SMALL_PX, Spot, TEXT_PX, UNIT, WALL, WIDTH_PX, fill, line, render, stroke,
     units, viridis, write_at,
@@ -15,14 +16,6 @@ use crate::output::Table;
 
 /// Number of colours of the speed scale.
 const LEVELS: usize = 32;
-const MARGIN_PX: f64 = 14.0;
-const GAP_PX: f64 = 14.0;
-const TITLE_PX: f64 = 24.0;
-const FOOT_PX: f64 = 74.0;
-
-/// A point in the plane of the figure: horizontal and vertical distance (m).
-type Point = [f64; 2];
-
 /// A run of cells of a row that share a colour, in cell numbers: first to last of `row`.
 struct Run {
     row: i64,
@@ -198,111 +191,6 @@ fn runs(mut cells: Vec<(i64, i64, usize)>) -> Vec<Run> {
         }
     }
     runs
-}
-
-/// From flume coordinates to the plane of the figure.
-struct Turn {
-    sin: f64,
-    cos: f64,
-}
-
-impl Turn {
-    fn new(inclination_deg: f64) -> Self {
-        let (sin, cos) = inclination_deg.to_radians().sin_cos();
-        Self { sin, cos }
-    }
-
-    fn apply(&self, [x, y]: Point) -> Point {
-        [x * self.cos + y * self.sin, y * self.cos - x * self.sin]
-    }
-}
-
-/// A rectangle in the plane of the figure (m).
-struct Extent {
-    left: f64,
-    top: f64,
-    width: f64,
-    height: f64,
-}
-
-impl Extent {
-    fn around(points: impl Iterator<Item = Point>) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for point in points {
-            for c in 0..2 {
-                low[c] = low[c].min(point[c]);
-                high[c] = high[c].max(point[c]);
-            }
-        }
-        Self {
-            left: low[0],
-            top: high[1],
-            width: high[0] - low[0],
-            height: high[1] - low[1],
-        }
-    }
-
-    fn grown(self, by: f64) -> Self {
-        let (width, height) = (self.width + 2.0 * by, self.height + 2.0 * by);
-        Self {
-            left: self.left - by,
-            top: self.top + by,
-            width,
-            height,
-        }
-    }
-}
-
-/// Where the panels are.
-struct Layout {
-    columns: usize,
-    panel_px: (f64, f64),
-    px_per_m: f64,
-    height_px: f64,
-}
-
-impl Layout {
-    /// Two columns, or more if the figure would otherwise be much taller than a page.
-    fn new(panels: usize, extent: &Extent) -> Self {
-        let fit = |columns: usize| {
-            let inner = f64::from(WIDTH_PX) - 2.0 * MARGIN_PX - GAP_PX * (columns - 1) as f64;
-            let width = inner / columns as f64;
-            // A panel much taller than wide is drawn smaller instead.
-            let px_per_m = (width / extent.width).min(1.4 * width / extent.height);
-            let height = px_per_m * extent.height;
-            let rows = panels.div_ceil(columns) as f64;
-            let height_px =
-                MARGIN_PX + rows * (TITLE_PX + height) + (rows - 1.0) * GAP_PX + FOOT_PX;
-            Self {
-                columns,
-                panel_px: (width, height),
-                px_per_m,
-                height_px,
-            }
-        };
-        let page = 1.3 * f64::from(WIDTH_PX);
-        (2..4)
-            .map(fit)
-            .find(|layout| layout.height_px <= page)
-            .unwrap_or_else(|| fit(4))
-    }
-
-    /// Upper left corner of a panel, below its title (px).
-    fn origin(&self, panel: usize) -> (f64, f64) {
-        let (row, column) = ((panel / self.columns) as f64, (panel % self.columns) as f64);
-        let (width, height) = self.panel_px;
-        (
-            MARGIN_PX + column * (width + GAP_PX),
-            MARGIN_PX + TITLE_PX + row * (height + TITLE_PX + GAP_PX),
-        )
-    }
-
-    fn spot(&self, origin: (f64, f64), extent: &Extent, [x, y]: Point) -> Spot {
-        (
-            units(origin.0 + (x - extent.left) * self.px_per_m),
-            units(origin.1 + (extent.top - y) * self.px_per_m),
-        )
-    }
 }
 
 /// Colour scale, length scale and direction of gravity.

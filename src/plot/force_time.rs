@@ -10,7 +10,7 @@ use super::axes::{Axis, Frame, Margins};
 use super::labels::spread;
 use super::style::{
     BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SMALL_PX, Spot, TEXT_PX, UNIT, VERMILION,
-    dashes, drawing, line, render, stroke, text_width_px, units, write_at,
+    dashes, drawing, fill, line, render, stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
@@ -133,7 +133,12 @@ pub fn draw(
             .map(|line| frame.spot(x.lo, line.value_n * scale).1)
             .collect();
         frame.series(canvas, time, &scaled(force), line(BLUE, 2.2))?;
-        frame.series(canvas, time, &scaled(layers), line(ORANGE, 0.9))?;
+        // Seen through, so that neither hides the other where they agree.
+        let thin = ShapeStyle {
+            color: ORANGE.mix(0.75),
+            ..line(ORANGE, 0.9)
+        };
+        frame.series(canvas, time, &scaled(layers), thin)?;
         for (k, height) in heights.iter().enumerate() {
             dashes(
                 canvas,
@@ -266,5 +271,13 @@ fn mark_peak(
             line(GREY, 0.8),
         )?;
     }
+    let (pad, end) = (units(3.0), x + width);
+    let backdrop = [
+        (x - pad, y - half),
+        (end, y - half),
+        (end, y + half),
+        (x - pad, y + half),
+    ];
+    fill(canvas, backdrop.to_vec(), &WHITE.mix(0.85))?;
     write_at(canvas, text, (x, y), SMALL_PX, INK, HPos::Left)
 }

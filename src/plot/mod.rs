@@ -3,10 +3,12 @@
 //! The same table gives the same bytes. A figure names no file, date or font; text is set in the reader's `sans-serif`.
 
 mod axes;
+mod energy_layers;
 pub mod energy_shares;
 pub mod flow_snapshots;
 pub mod force_time;
 mod labels;
+mod panels;
 pub mod pressure_profile;
 mod style;
 

@@ -93,10 +93,10 @@ fn history(bench: &Bench, rows: usize, scale: f64) -> PathBuf {
     let row = |k: usize| {
         let t = 6.0 * k as f64 / rows as f64;
         let s = (t - 0.55).max(0.0);
-        let smooth =
-            scale * (150.0 * (1.0 - (-s / 0.3f64).exp()) + 1900.0 * s * (-s / 0.12f64).exp());
-        let force = smooth * (1.0 + 0.07 * noise(k));
-        let layer = smooth * (0.93 + 0.1 * noise(k + 7919));
+        let gone = (-s / 0.22f64).exp();
+        let smooth = scale * (150.0 * (1.0 - gone) + 3000.0 * s * gone * s / (s + 0.1));
+        let force = smooth * (1.0 + 0.04 * gone.max(0.1) * noise(k));
+        let layer = smooth * (0.95 + 0.08 * gone.max(0.1) * noise(k + 7919));
         vec![t, force, 0.3 * force, layer, layer, layer, force * 1.2]
     };
     bench.table("history.csv", &columns, (0..rows).map(row))
@@ -162,7 +162,7 @@ fn shares_of_the_energy() {
             s * s * (3.0 - 2.0 * s)
         };
         let fallen = 200.0 * ramp(0.0, 1.2);
-        let plastic = 88.0 * ramp(0.1, 1.5);
+        let plastic = 90.5 * ramp(0.1, 1.5);
         let base = 62.0 * ramp(0.1, 1.4);
         let barrier = 6.0 * ramp(0.6, 1.5);
         let contact = 21.0 * ramp(0.55, 1.1);
