@@ -1,1 +1,15 @@
-//! output
+//! Files a run leaves behind: CSV tables, VTK frames, small text files.
+//!
+//! Every writer here leaves a readable file at any moment: tables end in a whole row, everything else appears by rename.
+
+pub mod atomic;
+mod error;
+pub mod pvd;
+pub mod table;
+pub mod vtk;
+
+pub use atomic::{AtomicFile, write_text};
+pub use error::OutputError;
+pub use pvd::PvdWriter;
+pub use table::{Table, TableWriter};
+pub use vtk::{Field, Polyline, Values, write_points, write_polylines};

@@ -1,0 +1,346 @@
+//! CSV tables: one header line, one row of numbers per line, an empty cell for "no value".
+
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+
+/// Significant digits written unless [`TableWriter::with_digits`] says otherwise.
+pub const DEFAULT_DIGITS: usize = 9;
+
+/// Bytes collected before they are handed to the file.
+const BUFFER_BYTES: usize = 1 << 16;
+
+/// Streams rows of numbers to a CSV file.
+///
+/// Numbers are rounded to a fixed count of significant digits and then written in the shortest form that reads back as
+/// the rounded value: plain (`0.00125`, `350`) from 1e-5 up to 1e15, with an exponent (`2.5e-9`) outside. NaN is an
+/// empty cell. The file always ends in a complete row, also after a failed write.
+#[derive(Debug)]
+pub struct TableWriter {
+    path: PathBuf,
+    file: File,
+    columns: usize,
+    digits: usize,
+    buffer: Vec<u8>,
+    scratch: String,
+    /// Length of the file, always the end of a row.
+    bytes: u64,
+    /// Lines in the file, the header among them.
+    lines: u64,
+    /// Lines in `buffer`.
+    pending: u64,
+}
+
+impl TableWriter {
+    /// Creates `path`, replacing what was there, and writes the header. A column name ends in its unit (`time_s`).
+    ///
+    /// # Errors
+    /// [`OutputError::Name`] for a name that is empty, repeated, or holds a comma, a quote or a line break;
+    /// [`OutputError::Create`] or [`OutputError::Append`] if the file cannot be written.
+    pub fn create<S: AsRef<str>>(
+        path: impl AsRef<Path>,
+        columns: &[S],
+    ) -> Result<Self, OutputError> {
+        let path = path.as_ref().to_path_buf();
+        let mut header = String::new();
+        let refuse = |name: &str, reason| OutputError::Name {
+            path: path.clone(),
+            name: name.to_owned(),
+            reason,
+        };
+        if columns.is_empty() {
+            return Err(refuse("", "a table needs at least one column"));
+        }
+        for (k, name) in columns.iter().map(AsRef::as_ref).enumerate() {
+            if name.is_empty() || name.trim() != name {
+                return Err(refuse(
+                    name,
+                    "a column name is not empty and has no space at its ends",
+                ));
+            }
+            if name.contains([',', '"', '\n', '\r']) {
+                return Err(refuse(
+                    name,
+                    "a column name has no comma, quote or line break",
+                ));
+            }
+            if columns[..k].iter().any(|other| other.as_ref() == name) {
+                return Err(refuse(name, "a column name stands once in a table"));
+            }
+            header.push_str(if k == 0 { "" } else { "," });
+            header.push_str(name);
+        }
+        header.push('\n');
+        let file = File::create(&path).map_err(|source| OutputError::Create {
+            path: path.clone(),
+            source,
+        })?;
+        let mut writer = Self {
+            path,
+            file,
+            columns: columns.len(),
+            digits: DEFAULT_DIGITS,
+            buffer: header.into_bytes(),
+            scratch: String::new(),
+            bytes: 0,
+            lines: 0,
+            pending: 1,
+        };
+        writer.flush()?;
+        Ok(writer)
+    }
+
+    /// Sets the number of significant digits of the rows to come, from 1 to 17 (17 keeps every bit).
+    #[must_use]
+    pub fn with_digits(mut self, digits: usize) -> Self {
+        self.digits = digits.clamp(1, 17);
+        self
+    }
+
+    /// Adds a row, one value per column. It reaches the file when enough rows have collected or at [`flush`](Self::flush).
+    ///
+    /// # Errors
+    /// [`OutputError::RowLength`] (the row is not taken), or [`OutputError::Append`] (it is held for the next attempt).
+    pub fn row(&mut self, values: &[f64]) -> Result<(), OutputError> {
+        if values.len() != self.columns {
+            let (expected, found) = (self.columns, values.len());
+            return Err(OutputError::RowLength {
+                path: self.path.clone(),
+                expected,
+                found,
+            });
+        }
+        if let [value] = values
+            && value.is_nan()
+        {
+            self.buffer.extend_from_slice(b"\"\""); // a blank line would be no row at all
+        }
+        for (k, value) in values.iter().enumerate() {
+            if k > 0 {
+                self.buffer.push(b',');
+            }
+            self.scratch.clear();
+            push_number(&mut self.scratch, *value, self.digits);
+            self.buffer.extend_from_slice(self.scratch.as_bytes());
+        }
+        self.buffer.push(b'\n');
+        self.pending += 1;
+        if self.buffer.len() >= BUFFER_BYTES {
+            self.flush()
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Hands all rows to the file, so that another program can read them.
+    ///
+    /// # Errors
+    /// [`OutputError::Append`], for example on a full disk. The file then ends in the last complete row that fitted; the
+    /// other rows are kept and written by the next call that succeeds.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        let mut taken = 0;
+        let mut failure = None;
+        while taken < self.buffer.len() {
+            match self.file.write(&self.buffer[taken..]) {
+                Ok(0) => failure = Some(std::io::ErrorKind::WriteZero.into()),
+                Ok(count) => taken += count,
+                Err(source) if source.kind() == std::io::ErrorKind::Interrupted => {}
+                Err(source) => failure = Some(source),
+            }
+            if failure.is_some() {
+                break;
+            }
+        }
+        let whole = self.buffer[..taken]
+            .iter()
+            .rposition(|byte| *byte == b'\n')
+            .map_or(0, |k| k + 1);
+        let rows = self.buffer[..whole]
+            .iter()
+            .filter(|byte| **byte == b'\n')
+            .count() as u64;
+        self.bytes += whole as u64;
+        self.lines += rows;
+        self.pending -= rows;
+        self.buffer.drain(..whole);
+        let Some(source) = failure else { return Ok(()) };
+        let _ = self.file.set_len(self.bytes);
+        let _ = self.file.seek(SeekFrom::Start(self.bytes));
+        let path = self.path.clone();
+        Err(OutputError::Append {
+            path,
+            rows: self.lines.saturating_sub(1),
+            pending: self.pending,
+            source,
+        })
+    }
+
+    /// Writes what is left, syncs the file to the disk and returns the number of rows in it.
+    ///
+    /// # Errors
+    /// [`OutputError::Append`].
+    pub fn finish(mut self) -> Result<u64, OutputError> {
+        self.flush()?;
+        let rows = self.lines.saturating_sub(1);
+        self.file.sync_all().map_err(|source| OutputError::Append {
+            path: self.path.clone(),
+            rows,
+            pending: 0,
+            source,
+        })?;
+        Ok(rows)
+    }
+}
+
+impl Drop for TableWriter {
+    /// Saves the rows still held when a run ends early. A failure has nobody left to hear of it.
+    fn drop(&mut self) {
+        let _ = self.flush();
+    }
+}
+
+/// Appends `value`, rounded to `digits` significant digits, in the form described at [`TableWriter`].
+fn push_number(text: &mut String, value: f64, digits: usize) {
+    if value.is_nan() {
+        return;
+    }
+    if value.is_infinite() {
+        text.push_str(if value > 0.0 { "inf" } else { "-inf" });
+        return;
+    }
+    let start = text.len();
+    let _ = write!(text, "{value:.*e}", digits.saturating_sub(1));
+    let rounded: f64 = text[start..].parse().unwrap_or(value);
+    text.truncate(start);
+    let magnitude = rounded.abs();
+    let _ = if rounded == 0.0 {
+        write!(text, "0") // never "-0"
+    } else if (1e-5..1e15).contains(&magnitude) {
+        write!(text, "{rounded}")
+    } else {
+        write!(text, "{rounded:e}")
+    };
+}
+
+/// A column as read: its values, or the line and text of its first cell that is not a number.
+type Column = Result<Vec<f64>, (u64, String)>;
+
+/// A CSV table in memory, by named column.
+#[derive(Debug, Clone)]
+pub struct Table {
+    path: PathBuf,
+    names: Vec<String>,
+    columns: Vec<Column>,
+    rows: usize,
+}
+
+impl Table {
+    /// Reads a table with a header line. An empty cell is NaN; a column of text only matters to those who ask for it.
+    ///
+    /// # Errors
+    /// [`OutputError::Open`], or [`OutputError::Malformed`] for a line whose number of cells differs from the header's.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, OutputError> {
+        let path = path.as_ref().to_path_buf();
+        let malformed = |line, reason: String| OutputError::Malformed {
+            path: path.clone(),
+            line,
+            reason,
+        };
+        let file = File::open(&path).map_err(|source| OutputError::Open {
+            path: path.clone(),
+            source,
+        })?;
+        let mut reader = csv::ReaderBuilder::new()
+            .flexible(true)
+            .trim(csv::Trim::All)
+            .from_reader(file);
+        let header = reader
+            .headers()
+            .map_err(|error| malformed(1, error.to_string()))?;
+        let names: Vec<String> = header.iter().map(str::to_owned).collect();
+        if names.is_empty() {
+            return Err(malformed(1, "there is no header".to_owned()));
+        }
+        let mut columns: Vec<Column> = names.iter().map(|_| Ok(Vec::new())).collect();
+        let mut rows = 0;
+        let mut record = csv::StringRecord::new();
+        loop {
+            let line = reader.position().line();
+            if !reader
+                .read_record(&mut record)
+                .map_err(|error| malformed(line, error.to_string()))?
+            {
+                break;
+            }
+            let line = record.position().map_or(line, csv::Position::line);
+            if record.len() != names.len() {
+                let reason = format!("{} cells under a header of {}", record.len(), names.len());
+                return Err(malformed(line, reason));
+            }
+            for (column, cell) in columns.iter_mut().zip(&record) {
+                let Ok(values) = column else { continue };
+                match cell.parse() {
+                    Ok(value) => values.push(value),
+                    Err(_) if cell.is_empty() => values.push(f64::NAN),
+                    Err(_) => *column = Err((line, cell.to_owned())),
+                }
+            }
+            rows += 1;
+        }
+        Ok(Self {
+            path,
+            names,
+            columns,
+            rows,
+        })
+    }
+
+    /// The file the table was read from.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Names of the columns, in the order of the file.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Number of rows below the header.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The values of a column, in the unit its name ends in; NaN where the cell is empty.
+    ///
+    /// # Errors
+    /// [`OutputError::MissingColumn`], or [`OutputError::NotANumber`] if a cell of the column holds text.
+    pub fn column(&self, name: &str) -> Result<&[f64], OutputError> {
+        let path = || self.path.clone();
+        let Some(k) = self.names.iter().position(|other| other == name) else {
+            let available = self.names.join(", ");
+            return Err(OutputError::MissingColumn {
+                path: path(),
+                column: name.to_owned(),
+                available,
+            });
+        };
+        self.columns[k]
+            .as_deref()
+            .map_err(|(line, text)| OutputError::NotANumber {
+                path: path(),
+                column: name.to_owned(),
+                line: *line,
+                text: text.clone(),
+            })
+    }
+}
+
+#[cfg(test)]
+#[path = "table_tests.rs"]
+mod tests;
