@@ -5,6 +5,7 @@
 pub mod body;
 pub mod boundary;
 pub mod case;
+pub mod check;
 pub mod constitutive;
 pub mod gauge;
 pub mod grid;
@@ -16,5 +17,6 @@ pub mod output;
 pub mod plot;
 pub mod shape;
 pub mod simulation;
+pub mod theory;
 pub mod timestep;
 pub mod transfer;
