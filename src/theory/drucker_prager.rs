@@ -141,7 +141,7 @@ mod tests {
         near(oedometric_ratio(0.3, outer), 0.42857, 5e-6);
         near(oedometric_ratio(0.3, inner_slope(PHI)), 0.44572, 5e-6);
         near(oedometric_ratio(0.3, sin(PHI)), 0.44061, 5e-6);
-        near(oedometric_ratio(0.3, outer / 3.0), 0.67522, 5e-6);
+        near(oedometric_ratio(0.3, outer / 3.0), 0.67523, 5e-6);
         near(1.0 / oedometric_limit(outer), compression_ratio(outer), 1e-12);
     }
 
