@@ -20,3 +20,5 @@ pub mod simulation;
 pub mod theory;
 pub mod timestep;
 pub mod transfer;
+#[path = "../verification/mod.rs"]
+pub mod verification;
