@@ -10,6 +10,7 @@ pub mod fault;
 pub mod report;
 pub mod scene;
 pub mod self_weight;
+pub mod sliding_block;
 
 pub use fault::{Fault, FaultKind};
 
@@ -76,4 +77,4 @@ impl Outcome {
 }
 
 /// The ladder, from the bottom.
-pub const RUNGS: &[Rung] = &[exactness::RUNG, self_weight::RUNG];
+pub const RUNGS: &[Rung] = &[exactness::RUNG, self_weight::RUNG, sliding_block::RUNG];
