@@ -108,6 +108,10 @@ impl Law for DruckerPrager {
         let excess = max(0.0, tau_trial + self.friction * mean_trial - self.cohesion);
         let multiplier = excess * (1.0 / (shear + bulk * self.friction * self.dilatancy));
         let mean_cone = mean_trial - bulk * self.dilatancy * multiplier;
+        // Dilatancy, too, fills what is open before it presses.
+        let filled = max(0.0, min(still_open, -mean_cone * (1.0 / bulk)));
+        let mean_cone = if filled < still_open { max(mean_cone, 0.0) } else { mean_cone + bulk * filled };
+        let still_open = still_open - filled;
         // Material that is open, or comes apart now, has lost its tensile strength.
         let torn = still_open > 0.0 || (self.void_tracking && mean_cone > self.tension_cutoff);
         let cap = if torn { min(0.0, self.tension_cutoff) } else { self.tension_cutoff };
