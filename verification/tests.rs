@@ -60,7 +60,7 @@ macro_rules! ladder {
     };
 }
 
-ladder!(exactness, self_weight, sliding_block);
+ladder!(exactness, self_weight, sliding_block, drucker_prager_point);
 
 /// Each rung fails under each fault that it claims to catch, and each fault is caught by some rung.
 #[test]
