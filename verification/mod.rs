@@ -5,7 +5,10 @@
 //! in [`RUNGS`]. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
 //! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
 
+pub mod celerity;
 pub mod drucker_prager_point;
+pub mod earth_pressure;
+pub mod energy;
 pub mod exactness;
 pub mod fault;
 pub mod report;
@@ -78,4 +81,12 @@ impl Outcome {
 }
 
 /// The ladder, from the bottom.
-pub const RUNGS: &[Rung] = &[exactness::RUNG, self_weight::RUNG, sliding_block::RUNG, drucker_prager_point::RUNG];
+pub const RUNGS: &[Rung] = &[
+    exactness::RUNG,
+    self_weight::RUNG,
+    sliding_block::RUNG,
+    drucker_prager_point::RUNG,
+    celerity::RUNG,
+    energy::RUNG,
+    earth_pressure::RUNG,
+];

@@ -60,7 +60,7 @@ macro_rules! ladder {
     };
 }
 
-ladder!(exactness, self_weight, sliding_block, drucker_prager_point);
+ladder!(exactness, self_weight, sliding_block, drucker_prager_point, celerity, energy, earth_pressure);
 
 /// Each rung fails under each fault that it claims to catch, and each fault is caught by some rung.
 #[test]
