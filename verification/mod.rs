@@ -44,7 +44,7 @@ pub struct Rung {
     pub title: &'static str,
     /// Runs it.
     pub run: fn(&Fault) -> Result<Outcome, RungFailure>,
-    /// Faults, with their factors, that it claims to catch.
+    /// Faults that it claims to catch, with their factors f; 2 - f is tried as well.
     pub covers: &'static [(FaultKind, f64)],
 }
 
