@@ -15,6 +15,7 @@ pub mod momentum;
 pub mod output;
 pub mod plot;
 pub mod shape;
+pub mod run;
 pub mod simulation;
 pub mod timestep;
 pub mod transfer;

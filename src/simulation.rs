@@ -466,6 +466,11 @@ impl Simulation {
         self.lattice.spacing
     }
 
+    /// Material outside [x_min, x_max], [y_min, y_max] is removed, m.
+    pub fn domain(&self) -> [[f64; 2]; 2] {
+        self.domain
+    }
+
     /// Extent across the plane, m.
     pub fn thickness(&self) -> f64 {
         self.thickness

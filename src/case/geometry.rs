@@ -30,7 +30,8 @@ pub fn direction(angle_deg: f64) -> Point {
             _ => [0.0, -1.0],
         }
     } else {
-        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let angle = angle_deg.to_radians();
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         [cos, sin]
     }
 }
