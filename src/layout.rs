@@ -61,7 +61,7 @@ pub struct Departed {
 }
 
 /// Scratch memory of the sort, kept between sorts.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Sorter {
     all: Vec<Vec<Particle>>,
     cells: Vec<Vec<[i32; 2]>>,

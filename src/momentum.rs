@@ -3,8 +3,8 @@
 //! Nodes are worked in chunks of fixed size. A chunk adds up what the bands scattered, in the order of the bands, so that the
 //! sums do not depend on which thread did what.
 
-use crate::boundary::{Boundary, nodes};
 use crate::boundary::nodes::{Hold, Tally};
+use crate::boundary::{Boundary, nodes};
 use crate::grid::ActiveGrid;
 use crate::layout::Band;
 use rayon::prelude::*;
@@ -61,7 +61,7 @@ pub struct BodyForces {
 }
 
 /// The chunks of the active grid.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct NodeSolver {
     chunks: Vec<Chunk>,
     holds: Vec<Hold>,
@@ -148,7 +148,11 @@ impl NodeSolver {
         grid: &mut ActiveGrid,
         work: impl Fn(&mut Chunk, &mut [f64], &mut [[f64; 4]], &mut [[f64; 2]]) + Sync,
     ) {
-        let nodes = (grid.mass.par_chunks_mut(CHUNK), grid.motion.par_chunks_mut(CHUNK), grid.strain_velocity.par_chunks_mut(CHUNK));
+        let nodes = (
+            grid.mass.par_chunks_mut(CHUNK),
+            grid.motion.par_chunks_mut(CHUNK),
+            grid.strain_velocity.par_chunks_mut(CHUNK),
+        );
         (self.chunks.par_iter_mut(), nodes.0, nodes.1, nodes.2)
             .into_par_iter()
             .for_each(|(chunk, mass, motion, velocity)| work(chunk, mass, motion, velocity));
@@ -210,10 +214,8 @@ impl Chunk {
             let per_m = 1.0 / m;
             let old = [px * per_m, py * per_m];
             let f = self.force[i];
-            let mut v = [
-                old[0] + dt * (f[0] * per_m + forces.gravity[0]),
-                old[1] + dt * (f[1] * per_m + forces.gravity[1]),
-            ];
+            let mut v =
+                [old[0] + dt * (f[0] * per_m + forces.gravity[0]), old[1] + dt * (f[1] * per_m + forces.gravity[1])];
             let mut damped = [0.0; 2];
             if forces.damping > 0.0 {
                 let share = (dt * forces.damping).min(1.0);

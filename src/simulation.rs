@@ -84,9 +84,11 @@ pub struct Scene {
 
 /// Why a step failed. The state is that of the failure, for inspection.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{what} at t = {time:.6e} s (step {step}): particle {id} of body `{body}` at x = {x:.6} m, y = {y:.6} m\n  \
+#[error(
+    "{what} at t = {time:.6e} s (step {step}): particle {id} of body `{body}` at x = {x:.6} m, y = {y:.6} m\n  \
          velocity ({vx:.4e}, {vy:.4e}) m/s, volume ratio {volume_ratio:.4e}, mean stress {mean_stress:.4e} Pa\n  \
-         the time step of {dt:.4e} s was limited by {limit}; a smaller `cfl` or a coarser grid may help")]
+         the time step of {dt:.4e} s was limited by {limit}; a smaller `cfl` or a coarser grid may help"
+)]
 pub struct StepFailure {
     /// What went wrong.
     pub what: &'static str,
@@ -120,7 +122,7 @@ pub struct StepFailure {
 const CRUSHED: f64 = 0.05;
 
 /// A running simulation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Simulation {
     lattice: Lattice,
     domain: [[f64; 2]; 2],
@@ -250,7 +252,16 @@ impl Simulation {
             for (body, points) in bodies.iter().zip(&band.points) {
                 let l = shape.half_width(body.points_per_direction);
                 let constants = constants(body, side);
-                transfer::scatter(what, l, &map, constants, points, band.first_node, &mut band.inertia, &mut band.force);
+                transfer::scatter(
+                    what,
+                    l,
+                    &map,
+                    constants,
+                    points,
+                    band.first_node,
+                    &mut band.inertia,
+                    &mut band.force,
+                );
             }
         });
     }
@@ -292,8 +303,16 @@ impl Simulation {
             for (body, points) in bodies.iter().zip(&mut band.points) {
                 let l = shape.half_width(body.points_per_direction);
                 let constants = constants(body, 0.0);
-                let part =
-                    transfer::gather_velocity(l, &map, constants, update, motion, points, band.first_node, &mut band.force);
+                let part = transfer::gather_velocity(
+                    l,
+                    &map,
+                    constants,
+                    update,
+                    motion,
+                    points,
+                    band.first_node,
+                    &mut band.force,
+                );
                 sums.kinetic += part.kinetic;
                 sums.pic_loss += part.pic_loss;
                 sums.max_speed = sums.max_speed.max(part.max_speed);
@@ -414,7 +433,10 @@ impl Simulation {
     pub fn describe_limit(&self, step: &TimeStep) -> String {
         match step.limit {
             TimeStepLimit::Wave(b) => {
-                format!("the P-wave of body `{}` ({:.4} m/s; its points reach {:.3} m/s)", self.bodies[b].name, step.wave_speed, step.particle_speed)
+                format!(
+                    "the P-wave of body `{}` ({:.4} m/s; its points reach {:.3} m/s)",
+                    self.bodies[b].name, step.wave_speed, step.particle_speed
+                )
             }
             TimeStepLimit::Speed(b) => {
                 format!("the particle speed in body `{}` ({:.4} m/s)", self.bodies[b].name, step.particle_speed)

@@ -139,7 +139,14 @@ impl Hold {
 ///
 /// Work is impulse times the mean of the velocities before and after the step, so that the works of all agents add up to the
 /// change of the node's kinetic energy exactly.
-pub fn solve(holds: &mut [Hold], boundaries: &[Boundary], m: f64, old: [f64; 2], v: &mut [f64; 2], tallies: &mut [Tally]) {
+pub fn solve(
+    holds: &mut [Hold],
+    boundaries: &[Boundary],
+    m: f64,
+    old: [f64; 2],
+    v: &mut [f64; 2],
+    tallies: &mut [Tally],
+) {
     let mut sweeps = if holds.len() > 1 { SWEEPS } else { 1 };
     for hold in holds.iter_mut() {
         hold.impulse = [0.0; 2];

@@ -17,13 +17,17 @@ const ENDED_EARLY: u8 = 3;
 ///
 /// A case file (TOML) says what to run; a run leaves tables (CSV), ParaView files (VTK) and figures (SVG) in a folder.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 110, after_help = "\
+#[command(
+    version,
+    max_term_width = 110,
+    after_help = "\
 Start here:
   checkdam check validation/flume/40deg.toml     what would run, and how long it would take
   checkdam run   validation/flume/40deg.toml     run it into out/40deg
 The comments in validation/flume/40deg.toml explain every field of a case file.
 
-Exit codes: 0 done, 2 the input is at fault (nothing was written), 3 the run failed or was stopped (what was computed is there).")]
+Exit codes: 0 done, 2 the input is at fault (nothing was written), 3 the run failed or was stopped (what was computed is there)."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -30,7 +30,13 @@ impl Display {
             bar
         });
         let now = Instant::now();
-        Self { bar, stage: None, stage_start: now, stage_first_step: 0, last: now.checked_sub(LINE_INTERVAL).unwrap_or(now) }
+        Self {
+            bar,
+            stage: None,
+            stage_start: now,
+            stage_first_step: 0,
+            last: now.checked_sub(LINE_INTERVAL).unwrap_or(now),
+        }
     }
 
     /// Shows `p`; called often, draws seldom.

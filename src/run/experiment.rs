@@ -1,5 +1,6 @@
 //! The stages of a run and the gauges that are read in it.
 
+use super::ProgressFn;
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
 use super::scene;
 use crate::case::Case;
@@ -190,18 +191,14 @@ impl Experiment {
     }
 
     /// All stages.
-    pub fn run(
-        &mut self,
-        recorder: &mut dyn Recorder,
-        progress: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<End, RunError> {
+    pub fn run(&mut self, recorder: &mut dyn Recorder, progress: &mut ProgressFn) -> Result<End, RunError> {
         self.prepare(progress)?;
         self.release();
         if self.stopped { Ok(End::Stopped) } else { self.flow(recorder, progress) }
     }
 
     /// Settles and tilts.
-    pub fn prepare(&mut self, progress: &mut dyn FnMut(&Progress) -> bool) -> Result<(), RunError> {
+    pub fn prepare(&mut self, progress: &mut ProgressFn) -> Result<(), RunError> {
         let Some(settle) = self.case.stages.settle.clone() else { return Ok(()) };
         self.simulation.set_damping(settle.damping_per_s);
         self.settle(progress)?;
@@ -223,7 +220,7 @@ impl Experiment {
     }
 
     /// Steps until the residual has stayed below its limit for one period of the body's slowest oscillation.
-    fn settle(&mut self, progress: &mut dyn FnMut(&Progress) -> bool) -> Result<(), RunError> {
+    fn settle(&mut self, progress: &mut ProgressFn) -> Result<(), RunError> {
         let Some(settle) = self.case.stages.settle.clone() else { return Ok(()) };
         let height = self.case.bodies.iter().map(|b| b.size_m()[1]).fold(0.0, f64::max);
         let slowest = self.simulation.bodies().iter().map(|b| b.p_wave_speed()).fold(f64::INFINITY, f64::min);
@@ -250,14 +247,7 @@ impl Experiment {
         Ok(())
     }
 
-    fn look(
-        &mut self,
-        stage: Stage,
-        start: f64,
-        end: f64,
-        residual: f64,
-        progress: &mut dyn FnMut(&Progress) -> bool,
-    ) {
+    fn look(&mut self, stage: Stage, start: f64, end: f64, residual: f64, progress: &mut ProgressFn) {
         let sim = &self.simulation;
         if !sim.steps().is_multiple_of(STEPS_PER_LOOK) {
             return;
@@ -273,19 +263,16 @@ impl Experiment {
     }
 
     /// Opens the gates and the ledger, and starts the clock.
-    fn release(&mut self) {
+    pub fn release(&mut self) -> &Simulation {
         self.facts.settle_time = self.simulation.time();
         self.facts.settle_steps = self.simulation.steps();
         self.simulation.set_time(0.0);
         self.simulation.open_ledger();
         self.simulation.release_gates();
+        &self.simulation
     }
 
-    fn flow(
-        &mut self,
-        recorder: &mut dyn Recorder,
-        progress: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<End, RunError> {
+    fn flow(&mut self, recorder: &mut dyn Recorder, progress: &mut ProgressFn) -> Result<End, RunError> {
         let run = self.case.stages.run.clone();
         let energy = self.simulation.energy_balance(self.simulation.opening(), self.datum());
         let released = energy.initial.abs().max(f64::MIN_POSITIVE);

@@ -4,7 +4,8 @@
 //! what was computed until then is there and readable, and `summary.toml` says how it ended. Nothing in the folder depends
 //! on the wall clock, the number of threads or the place of the folder: the same case gives the same bytes.
 
-use super::experiment::{Experiment, Progress, RunError};
+use super::ProgressFn;
+use super::experiment::{Experiment, RunError};
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
 use super::summary::Summary;
 use crate::boundary::{Boundary, Solid};
@@ -34,7 +35,8 @@ pub fn prepare_directory(directory: &Path) -> Result<(), String> {
             ));
         }
     }
-    fs::create_dir_all(directory).map_err(|e| format!("cannot create {shown}: {e}; choose another folder with --out"))?;
+    fs::create_dir_all(directory)
+        .map_err(|e| format!("cannot create {shown}: {e}; choose another folder with --out"))?;
     let probe = directory.join(".checkdam-probe");
     fs::write(&probe, b"checkdam")
         .and_then(|()| fs::remove_file(&probe))
@@ -42,11 +44,7 @@ pub fn prepare_directory(directory: &Path) -> Result<(), String> {
 }
 
 /// Runs a case into an empty folder.
-pub(super) fn run_into(
-    case: &Case,
-    directory: &Path,
-    progress: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Summary, RunError> {
+pub(super) fn run_into(case: &Case, directory: &Path, progress: &mut ProgressFn) -> Result<Summary, RunError> {
     let mut experiment = Experiment::new(case);
     let mut folder = Folder::create(directory, &experiment)?;
     let end = experiment.run(&mut folder, progress);
@@ -114,9 +112,8 @@ impl Folder {
         let names: Vec<String> = sim.boundaries().iter().map(|b| column_name(&b.name)).collect();
         let table = |name: &str, columns: &[String]| TableWriter::create(directory.join(name), columns);
         let fixed = |columns: &[&str]| columns.iter().map(ToString::to_string).collect::<Vec<_>>();
-        let optional = |wanted: bool, name: &str, columns: &[&str]| {
-            wanted.then(|| table(name, &fixed(columns))).transpose()
-        };
+        let optional =
+            |wanted: bool, name: &str, columns: &[&str]| wanted.then(|| table(name, &fixed(columns))).transpose();
         let has_barrier = experiment.barrier().is_some();
         let frames = if experiment.vtk_interval() > 0.0 {
             let frames = directory.join("vtk");
@@ -214,9 +211,7 @@ impl Recorder for Folder {
 
     fn field(&mut self, time: f64, cells: &[FieldCell]) -> Result<(), OutputError> {
         let Some(table) = &mut self.field else { return Ok(()) };
-        cells
-            .iter()
-            .try_for_each(|c| table.row(&[time, c.x[0], c.x[1], c.fill, c.v[0], c.v[1], c.v[0].hypot(c.v[1])]))
+        cells.iter().try_for_each(|c| table.row(&[time, c.x[0], c.x[1], c.fill, c.v[0], c.v[1], c.v[0].hypot(c.v[1])]))
     }
 
     fn frame(&mut self, simulation: &Simulation) -> Result<(), OutputError> {

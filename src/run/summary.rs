@@ -227,7 +227,8 @@ impl Summary {
     /// As a TOML document.
     pub fn to_toml(&self) -> String {
         // Every type here maps to TOML; a failure would be a programming error, shown in place.
-        toml::to_string(self).unwrap_or_else(|e| format!("status = {:?}\n# the summary could not be written: {e}\n", self.status))
+        toml::to_string(self)
+            .unwrap_or_else(|e| format!("status = {:?}\n# the summary could not be written: {e}\n", self.status))
     }
 
     fn warn(&mut self, experiment: &Experiment) {
@@ -235,7 +236,10 @@ impl Summary {
         let h = sim.spacing();
         let mut warn = |text: String| self.warnings.push(text);
         if self.energy.residual_max.abs() > 0.02 {
-            warn(format!("energy does not close: {:.2} % of E0 is not accounted for", 100.0 * self.energy.residual_max));
+            warn(format!(
+                "energy does not close: {:.2} % of E0 is not accounted for",
+                100.0 * self.energy.residual_max
+            ));
         }
         if self.momentum.closure_max > 1e-10 {
             warn(format!("momentum does not close: {:.1e} of all impulses", self.momentum.closure_max));
@@ -439,9 +443,8 @@ fn passages(case: &Case, records: &Records) -> Vec<FrontPassage> {
         froude: row.front.velocity / (g * row.front.depth).sqrt(),
     };
     let stations = case.gauges.stations_m.iter();
-    let mut passages: Vec<_> = stations
-        .filter_map(|&x| records.history.iter().find(|r| r.front.x >= x).map(|row| at(row, x)))
-        .collect();
+    let mut passages: Vec<_> =
+        stations.filter_map(|&x| records.history.iter().find(|r| r.front.x >= x).map(|row| at(row, x))).collect();
     // Just before the barrier is touched.
     if let Some(k) = records.history.iter().position(|r| r.normal > ARRIVAL_FORCE)
         && k > 0
