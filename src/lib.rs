@@ -5,6 +5,7 @@
 pub mod body;
 pub mod boundary;
 pub mod case;
+pub mod check;
 pub mod constitutive;
 pub mod gauge;
 pub mod grid;
@@ -17,5 +18,8 @@ pub mod plot;
 pub mod run;
 pub mod shape;
 pub mod simulation;
+pub mod theory;
 pub mod timestep;
 pub mod transfer;
+#[path = "../verification/mod.rs"]
+pub mod verification;

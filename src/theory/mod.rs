@@ -1,0 +1,13 @@
+//! Closed forms: what the solver is held against. Nothing here imports the solver, so that no reference is its own witness.
+//!
+//! One file per subject. Units are SI, angles radians, stresses positive in tension unless a function says otherwise.
+
+pub mod bar;
+pub mod drucker_prager;
+pub mod earth_pressure;
+pub mod elastic;
+pub mod jaumann;
+pub mod order;
+pub mod pic;
+pub mod self_weight;
+pub mod sliding_block;

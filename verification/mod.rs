@@ -1,0 +1,79 @@
+//! Are we solving the equations right? A ladder of rungs, each a set of checks against closed forms, exact fields, conservation
+//! laws and observed orders.
+//!
+//! The ladder is part of the library so that `cargo test` and the command run the same thing. A rung is one file and one line
+//! in [`RUNGS`]. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
+//! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
+
+pub mod exactness;
+pub mod fault;
+pub mod report;
+pub mod scene;
+pub mod self_weight;
+
+pub use fault::{Fault, FaultKind};
+
+use crate::check::{Check, Verdict};
+use crate::simulation::StepFailure;
+
+/// Why a rung could not be run to its end.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RungFailure {
+    /// The solver gave up.
+    #[error(transparent)]
+    Step(Box<StepFailure>),
+}
+
+impl From<StepFailure> for RungFailure {
+    fn from(failure: StepFailure) -> Self {
+        RungFailure::Step(Box::new(failure))
+    }
+}
+
+/// One rung of the ladder.
+#[derive(Debug, Clone, Copy)]
+pub struct Rung {
+    /// Name, also of its report.
+    pub name: &'static str,
+    /// What it shows, in a line.
+    pub title: &'static str,
+    /// Runs it.
+    pub run: fn(&Fault) -> Result<Outcome, RungFailure>,
+    /// Faults, with their factors, that it claims to catch.
+    pub covers: &'static [(FaultKind, f64)],
+}
+
+/// What a rung found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Outcome {
+    /// Checks.
+    pub checks: Vec<Check>,
+    /// Tables that show more: name without extension, and CSV text.
+    pub tables: Vec<(String, String)>,
+}
+
+impl Outcome {
+    /// Adds a check.
+    pub fn check(&mut self, check: Check) {
+        self.checks.push(check);
+    }
+
+    /// Adds what another part of the rung found.
+    pub fn merge(&mut self, other: Outcome) {
+        self.checks.extend(other.checks);
+        self.tables.extend(other.tables);
+    }
+
+    /// The outcome as a verdict of the rung `name`.
+    pub fn verdict(&self, name: &str) -> Verdict {
+        let artefacts = std::iter::once(name).chain(self.tables.iter().map(|t| t.0.as_str()));
+        Verdict {
+            name: name.into(),
+            checks: self.checks.clone(),
+            artefacts: artefacts.map(|n| format!("{n}.csv")).collect(),
+        }
+    }
+}
+
+/// The ladder, from the bottom.
+pub const RUNGS: &[Rung] = &[exactness::RUNG, self_weight::RUNG];
