@@ -43,8 +43,15 @@ pub fn prepare_directory(directory: &Path) -> Result<(), String> {
         .map_err(|e| format!("cannot write into {shown}: {e}; choose another folder with --out"))
 }
 
-/// Runs a case into an empty folder.
-pub(super) fn run_into(case: &Case, directory: &Path, progress: &mut ProgressFn) -> Result<Summary, RunError> {
+/// Runs a case into an empty folder; returns what was recorded.
+///
+/// # Errors
+/// What stopped the run; the folder then holds what was computed.
+pub fn run_into(
+    case: &Case,
+    directory: &Path,
+    progress: &mut ProgressFn,
+) -> Result<(Experiment, Records, Summary), RunError> {
     let mut experiment = Experiment::new(case);
     let mut folder = Folder::create(directory, &experiment)?;
     let end = experiment.run(&mut folder, progress);
@@ -57,7 +64,7 @@ pub(super) fn run_into(case: &Case, directory: &Path, progress: &mut ProgressFn)
     end?;
     closed?;
     draw_figures(case, directory, &summary)?;
-    Ok(summary)
+    Ok((experiment, folder.records, summary))
 }
 
 /// Draws all figures of a finished run from its tables.
