@@ -27,6 +27,8 @@ pub struct Ledger {
     pub departed_energy: f64,
     /// Mass that left the domain, kg.
     pub departed_mass: f64,
+    /// The part of it that lay behind the face of each boundary, kg: what went over a barrier and on.
+    pub departed_behind: Vec<f64>,
     /// Sum of the magnitudes of all impulses, N s: the scale on which closure is judged.
     pub impulse_scale: f64,
 }
@@ -34,7 +36,11 @@ pub struct Ledger {
 impl Ledger {
     /// An empty ledger for `boundaries` boundaries.
     pub fn new(boundaries: usize) -> Self {
-        Self { boundaries: vec![Tally::default(); boundaries], ..Self::default() }
+        Self {
+            boundaries: vec![Tally::default(); boundaries],
+            departed_behind: vec![0.0; boundaries],
+            ..Self::default()
+        }
     }
 
     /// Momentum that everything together has given to the material since the ledger was opened, N s.

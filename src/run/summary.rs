@@ -354,8 +354,9 @@ fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults>
     let g = sim.gravity();
     let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
     let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
-    // A moving particle counts fully; what went over the barrier or left the domain does not.
-    let mass = sim.mass() - last.overtopped;
+    // What lies behind the barrier rests on the base, too, but does not push.
+    let gone = sim.ledger().departed_behind[experiment.barrier()?.boundary()];
+    let mass = sim.mass() - (last.overtopped - gone);
     let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
     let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
     let weight = mass * along;
