@@ -30,6 +30,8 @@ pub struct Band {
     pub inertia: Vec<[f64; 4]>,
     /// Internal force x and y (N), or remapped momentum.
     pub force: Vec<[f64; 2]>,
+    /// Force of a body-force field x and y (N); empty unless there is one.
+    pub field_force: Vec<[f64; 2]>,
     /// Sums over the band's points in this step.
     pub sums: BandSums,
 }
@@ -223,6 +225,7 @@ impl Sorter {
             band.inertia.resize(reach, [0.0; 4]);
             band.force.clear();
             band.force.resize(reach, [0.0; 2]);
+            band.field_force.clear();
             band.sums = BandSums::default();
         }
         for body in 0..bodies {

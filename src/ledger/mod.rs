@@ -17,6 +17,8 @@ pub struct Ledger {
     pub damping: Drag,
     /// Side-wall friction.
     pub side_walls: Drag,
+    /// A field of accelerations, where one is set.
+    pub field: Drag,
     /// Work of the stresses on the strains, J.
     pub internal_work: f64,
     /// Kinetic energy taken by the PIC share of the velocity update, J.
@@ -47,7 +49,8 @@ impl Ledger {
     pub fn impulse(&self) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (d, s) in sum.iter_mut().enumerate() {
-            *s = self.gravity[d] + self.damping.impulse[d] + self.side_walls.impulse[d] - self.departed_momentum[d]
+            *s = self.gravity[d] + self.damping.impulse[d] + self.side_walls.impulse[d] + self.field.impulse[d]
+                - self.departed_momentum[d]
                 + self.boundaries.iter().map(|b| b.impulse[d]).sum::<f64>();
         }
         sum
@@ -92,6 +95,8 @@ pub struct EnergyBalance {
     pub side_walls: f64,
     /// Carried out of the domain.
     pub outflow: f64,
+    /// Given to a field of accelerations; negative where it drives the material.
+    pub field: f64,
     /// What was there when the ledger was opened, less all of the above.
     pub residual: f64,
     /// Total when the ledger was opened.
@@ -116,6 +121,7 @@ impl EnergyBalance {
             damping: -ledger.damping.work,
             side_walls: -ledger.side_walls.work,
             outflow: ledger.departed_energy - (datum[0] - datum[1]),
+            field: -ledger.field.work,
             residual: 0.0,
             initial,
         };
@@ -135,5 +141,6 @@ impl EnergyBalance {
             + self.damping
             + self.side_walls
             + self.outflow
+            + self.field
     }
 }
