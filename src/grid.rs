@@ -44,6 +44,8 @@ pub struct ActiveGrid {
     pub spacing: f64,
     /// Active columns, from left to right without gaps; a column may be empty.
     pub columns: Vec<Column>,
+    /// For each column, the index that row 0 would have: a node's index less its row.
+    pub row_zero: Vec<i32>,
     /// Nodal mass, kg.
     pub mass: Vec<f64>,
     /// New velocity and its change in this step: v_x, v_y, dv_x, dv_y in m/s.
@@ -65,6 +67,8 @@ impl ActiveGrid {
 
     /// Sets the nodal arrays to the size of the columns.
     pub fn allocate(&mut self) {
+        self.row_zero.clear();
+        self.row_zero.extend(self.columns.iter().map(|c| c.start as i32 - c.row));
         let nodes = self.columns.last().map_or(0, |c| (c.start + c.rows) as usize);
         self.mass.clear();
         self.mass.resize(nodes, 0.0);

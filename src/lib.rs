@@ -15,6 +15,7 @@ pub mod ledger;
 pub mod momentum;
 pub mod output;
 pub mod plot;
+pub mod run;
 pub mod shape;
 pub mod simulation;
 pub mod theory;

@@ -61,6 +61,16 @@ pub struct Numerics {
     pub pic: PicShare,
 }
 
+/// A field of accelerations (m/s2), given a point and the time (s).
+#[derive(Clone)]
+pub struct AccelerationField(pub std::sync::Arc<dyn Fn(&Particle, f64) -> [f64; 2] + Send + Sync>);
+
+impl std::fmt::Debug for AccelerationField {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("AccelerationField")
+    }
+}
+
 /// Everything that a simulation starts from.
 #[derive(Debug, Clone)]
 pub struct Scene {
@@ -84,9 +94,11 @@ pub struct Scene {
 
 /// Why a step failed. The state is that of the failure, for inspection.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{what} at t = {time:.6e} s (step {step}): particle {id} of body `{body}` at x = {x:.6} m, y = {y:.6} m\n  \
+#[error(
+    "{what} at t = {time:.6e} s (step {step}): particle {id} of body `{body}` at x = {x:.6} m, y = {y:.6} m\n  \
          velocity ({vx:.4e}, {vy:.4e}) m/s, volume ratio {volume_ratio:.4e}, mean stress {mean_stress:.4e} Pa\n  \
-         the time step of {dt:.4e} s was limited by {limit}; a smaller `cfl` or a coarser grid may help")]
+         the time step of {dt:.4e} s was limited by {limit}; a smaller `cfl` or a coarser grid may help"
+)]
 pub struct StepFailure {
     /// What went wrong.
     pub what: &'static str,
@@ -120,7 +132,7 @@ pub struct StepFailure {
 const CRUSHED: f64 = 0.05;
 
 /// A running simulation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Simulation {
     lattice: Lattice,
     domain: [[f64; 2]; 2],
@@ -130,6 +142,7 @@ pub struct Simulation {
     side_friction: f64,
     boundaries: Vec<Boundary>,
     forces: BodyForces,
+    field: Option<AccelerationField>,
     mass: f64,
 
     bands: Vec<Band>,
@@ -170,6 +183,7 @@ impl Simulation {
             numerics: scene.numerics,
             side_friction: 2.0 * scene.side_wall_friction / scene.thickness,
             forces: BodyForces { gravity: scene.gravity, damping: 0.0 },
+            field: None,
             mass,
             speeds: vec![0.0; bodies.len()],
             step_tallies: vec![Tally::default(); boundaries.len()],
@@ -240,6 +254,7 @@ impl Simulation {
     fn particles_to_grid(&mut self, what: Scatter) {
         let map = NodeMap::new(&self.grid);
         let (bodies, shape, side) = (&self.bodies, self.numerics.shape, self.side_friction);
+        let (field, time) = (self.field.as_ref(), self.time);
         self.bands.par_iter_mut().with_max_len(1).for_each(|band| {
             if what != Scatter::Force {
                 band.inertia.fill([0.0; 4]);
@@ -250,7 +265,26 @@ impl Simulation {
             for (body, points) in bodies.iter().zip(&band.points) {
                 let l = shape.half_width(body.points_per_direction);
                 let constants = constants(body, side);
-                transfer::scatter(what, l, &map, constants, points, band.first_node, &mut band.inertia, &mut band.force);
+                transfer::scatter(
+                    what,
+                    l,
+                    &map,
+                    constants,
+                    points,
+                    band.first_node,
+                    &mut band.inertia,
+                    &mut band.force,
+                );
+            }
+            if let Some(AccelerationField(field)) = field.filter(|_| what != Scatter::Inertia) {
+                band.field_force.clear();
+                band.field_force.resize(band.force.len(), [0.0; 2]);
+                for (body, points) in bodies.iter().zip(&band.points) {
+                    let l = shape.half_width(body.points_per_direction);
+                    let at = |p: &Particle| field(p, time);
+                    let (first, m) = (band.first_node, body.point_mass);
+                    transfer::scatter_field(l, &map, m, &at, points, first, &mut band.field_force);
+                }
             }
         });
     }
@@ -258,7 +292,7 @@ impl Simulation {
     /// Momentum balance and contact at the nodes; books what acted from outside.
     fn solve_momentum(&mut self, dt: f64) {
         self.step_tallies.fill(Tally::default());
-        let (damping, side_walls) =
+        let distributed =
             self.nodes.solve(&mut self.grid, &self.bands, &self.boundaries, self.forces, dt, &mut self.step_tallies);
         let ledger = &mut self.ledger;
         for d in 0..2 {
@@ -270,8 +304,9 @@ impl Simulation {
             sum.add(tally);
             ledger.impulse_scale += tally.impulse[0].abs() + tally.impulse[1].abs();
         }
-        ledger.damping.merge(&damping);
-        ledger.side_walls.merge(&side_walls);
+        ledger.damping.merge(&distributed.damping);
+        ledger.side_walls.merge(&distributed.side_walls);
+        ledger.field.merge(&distributed.field);
     }
 
     /// g2p: new velocities and displacements; for MUSL also their momentum, back on the grid.
@@ -292,8 +327,16 @@ impl Simulation {
             for (body, points) in bodies.iter().zip(&mut band.points) {
                 let l = shape.half_width(body.points_per_direction);
                 let constants = constants(body, 0.0);
-                let part =
-                    transfer::gather_velocity(l, &map, constants, update, motion, points, band.first_node, &mut band.force);
+                let part = transfer::gather_velocity(
+                    l,
+                    &map,
+                    constants,
+                    update,
+                    motion,
+                    points,
+                    band.first_node,
+                    &mut band.force,
+                );
                 sums.kinetic += part.kinetic;
                 sums.pic_loss += part.pic_loss;
                 sums.max_speed = sums.max_speed.max(part.max_speed);
@@ -366,6 +409,9 @@ impl Simulation {
         self.mass -= m;
         let ledger = &mut self.ledger;
         ledger.departed_mass += m;
+        for (behind, b) in ledger.departed_behind.iter_mut().zip(&self.boundaries) {
+            *behind += if b.face_coordinates(p.x).0 < 0.0 { m } else { 0.0 };
+        }
         ledger.departed_energy += 0.5 * m * p.speed() * p.speed() + elastic + m * potential(&self.forces.gravity, &p.x);
         // The elastic energy leaves the stock without being dissipated.
         ledger.internal_work -= elastic;
@@ -414,7 +460,10 @@ impl Simulation {
     pub fn describe_limit(&self, step: &TimeStep) -> String {
         match step.limit {
             TimeStepLimit::Wave(b) => {
-                format!("the P-wave of body `{}` ({:.4} m/s; its points reach {:.3} m/s)", self.bodies[b].name, step.wave_speed, step.particle_speed)
+                format!(
+                    "the P-wave of body `{}` ({:.4} m/s; its points reach {:.3} m/s)",
+                    self.bodies[b].name, step.wave_speed, step.particle_speed
+                )
             }
             TimeStepLimit::Speed(b) => {
                 format!("the particle speed in body `{}` ({:.4} m/s)", self.bodies[b].name, step.particle_speed)
@@ -466,6 +515,11 @@ impl Simulation {
         self.lattice.spacing
     }
 
+    /// Material outside [x_min, x_max], [y_min, y_max] is removed, m.
+    pub fn domain(&self) -> [[f64; 2]; 2] {
+        self.domain
+    }
+
     /// Extent across the plane, m.
     pub fn thickness(&self) -> f64 {
         self.thickness
@@ -489,6 +543,12 @@ impl Simulation {
     /// Mass-proportional damping, 1/s.
     pub fn set_damping(&mut self, rate: f64) {
         self.forces.damping = rate;
+    }
+
+    /// Adds a field of accelerations to gravity, as manufactured solutions need, or removes it.
+    pub fn set_field(&mut self, field: Option<AccelerationField>) {
+        self.field = field;
+        self.bands.iter_mut().for_each(|band| band.field_force.clear());
     }
 
     /// Moves a boundary at a velocity, m/s. Nodes it reaches are found at the next sort, so keep it slow against h per sort.

@@ -158,10 +158,7 @@ impl Boundary {
     /// Geometry with the defaults filled in; `None` if a required field is missing, which validation refuses.
     pub fn shape(&self, grid: &Grid) -> Option<Shape> {
         match self.kind {
-            BoundaryKind::Plane => Some(Shape::Plane {
-                point_m: self.point_m?,
-                normal_deg: self.normal_deg?,
-            }),
+            BoundaryKind::Plane => Some(Shape::Plane { point_m: self.point_m?, normal_deg: self.normal_deg? }),
             BoundaryKind::Wall => Some(Shape::Wall(self.wall(grid)?)),
             BoundaryKind::Gate => Some(Shape::Gate(self.wall(grid)?, self.opening_law()?)),
         }
@@ -171,9 +168,7 @@ impl Boundary {
     pub fn contact_law(&self) -> Option<Contact> {
         match self.contact {
             ContactKind::Smooth => Some(Contact::Smooth),
-            ContactKind::Coulomb => Some(Contact::Coulomb {
-                friction: self.friction?,
-            }),
+            ContactKind::Coulomb => Some(Contact::Coulomb { friction: self.friction? }),
             ContactKind::Rough => Some(Contact::Rough),
         }
     }
@@ -184,22 +179,17 @@ impl Boundary {
             height_m: self.height_m?,
             inclination_deg: self.inclination_deg.unwrap_or(90.0),
             material_side: self.material_side.unwrap_or_default(),
-            thickness_m: self
-                .thickness_m
-                .unwrap_or(Self::DEFAULT_THICKNESS_CELLS * grid.spacing_m),
+            thickness_m: self.thickness_m.unwrap_or(Self::DEFAULT_THICKNESS_CELLS * grid.spacing_m),
         })
     }
 
     fn opening_law(&self) -> Option<Opening> {
         match self.opening.unwrap_or_default() {
             OpeningKind::Vanish => Some(Opening::Vanish),
-            OpeningKind::Lift => Some(Opening::Lift {
-                speed_m_per_s: self.lift_speed_m_per_s?,
-            }),
-            OpeningKind::Raise => Some(Opening::Raise {
-                speed_m_per_s: self.lift_speed_m_per_s,
-                opening_m: self.opening_m?,
-            }),
+            OpeningKind::Lift => Some(Opening::Lift { speed_m_per_s: self.lift_speed_m_per_s? }),
+            OpeningKind::Raise => {
+                Some(Opening::Raise { speed_m_per_s: self.lift_speed_m_per_s, opening_m: self.opening_m? })
+            }
         }
     }
 

@@ -30,24 +30,15 @@ pub fn direction(angle_deg: f64) -> Point {
             _ => [0.0, -1.0],
         }
     } else {
-        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let angle = angle_deg.to_radians();
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         [cos, sin]
     }
 }
 
 fn rectangle(corner: Point, u: Point, length_u: f64, v: Point, length_v: f64) -> [Point; 4] {
-    let at = |a: f64, b: f64| {
-        [
-            corner[0] + a * u[0] + b * v[0],
-            corner[1] + a * u[1] + b * v[1],
-        ]
-    };
-    [
-        at(0.0, 0.0),
-        at(length_u, 0.0),
-        at(length_u, length_v),
-        at(0.0, length_v),
-    ]
+    let at = |a: f64, b: f64| [corner[0] + a * u[0] + b * v[0], corner[1] + a * u[1] + b * v[1]];
+    [at(0.0, 0.0), at(length_u, 0.0), at(length_u, length_v), at(0.0, length_v)]
 }
 
 impl Body {
@@ -73,13 +64,7 @@ impl Wall {
     pub fn corners_m(&self) -> [Point; 4] {
         let normal = self.normal();
         let behind = [-normal[0], -normal[1]];
-        rectangle(
-            self.foot_m,
-            direction(self.inclination_deg),
-            self.height_m,
-            behind,
-            self.thickness_m,
-        )
+        rectangle(self.foot_m, direction(self.inclination_deg), self.height_m, behind, self.thickness_m)
     }
 }
 
@@ -87,28 +72,19 @@ impl Wall {
 pub fn penetration_of_plane(corners: &[Point; 4], point_m: Point, normal_deg: f64) -> Penetration {
     let normal = direction(normal_deg);
     let depth = |p: &Point| -dot([p[0] - point_m[0], p[1] - point_m[1]], normal);
-    Penetration {
-        depth_m: corners.iter().map(depth).fold(f64::NEG_INFINITY, f64::max),
-        way_out: normal,
-    }
+    Penetration { depth_m: corners.iter().map(depth).fold(f64::NEG_INFINITY, f64::max), way_out: normal }
 }
 
 /// How deep rectangle `a` lies in rectangle `b` (separating axes); depth not above zero: they do not overlap.
 pub fn penetration_of_rectangle(a: &[Point; 4], b: &[Point; 4]) -> Penetration {
-    let mut least = Penetration {
-        depth_m: f64::INFINITY,
-        way_out: [0.0, 0.0],
-    };
+    let mut least = Penetration { depth_m: f64::INFINITY, way_out: [0.0, 0.0] };
     for corners in [b, a] {
         for [from, to] in [[corners[0], corners[1]], [corners[1], corners[2]]] {
             let edge = [to[0] - from[0], to[1] - from[1]];
             let length = edge[0].hypot(edge[1]);
             let axis = [-edge[1] / length, edge[0] / length];
             let ([low_a, high_a], [low_b, high_b]) = (extent(a, axis), extent(b, axis));
-            for (depth_m, way_out) in [
-                (high_b - low_a, axis),
-                (high_a - low_b, [-axis[0], -axis[1]]),
-            ] {
+            for (depth_m, way_out) in [(high_b - low_a, axis), (high_a - low_b, [-axis[0], -axis[1]])] {
                 if depth_m < least.depth_m {
                     least = Penetration { depth_m, way_out };
                 }
@@ -122,7 +98,5 @@ fn extent(corners: &[Point; 4], axis: Point) -> [f64; 2] {
     corners
         .iter()
         .map(|&p| dot(p, axis))
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| {
-            [low.min(s), high.max(s)]
-        })
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)])
 }

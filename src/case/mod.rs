@@ -22,15 +22,13 @@ use std::path::Path;
 
 use thiserror::Error;
 
-pub use boundary::{
-    Boundary, BoundaryKind, Contact, ContactKind, MaterialSide, Opening, OpeningKind, Shape, Wall,
-};
+pub use boundary::{Boundary, BoundaryKind, Contact, ContactKind, MaterialSide, Opening, OpeningKind, Shape, Wall};
 pub use geometry::direction;
 pub use material::{Cone, DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
-    Body, Case, Domain, Gauges, Gravity, Grid, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS,
-    Numerics, Output, Pic, Run, Scheme, Settle, ShapeFunction, SideWalls, Stages, Tilt,
+    Body, Case, Domain, Gauges, Gravity, Grid, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Pic,
+    Run, Scheme, Settle, ShapeFunction, SideWalls, Stages, Tilt,
 };
 pub use validate::{Findings, Problem, validate};
 
@@ -71,19 +69,8 @@ pub enum CaseError {
 pub fn load(path: &Path) -> Result<LoadedCase, CaseError> {
     let name = path.display().to_string();
     let bytes = read(path).map_err(|(what, fix)| {
-        let diagnostic = Diagnostic {
-            what,
-            span: None,
-            allowed: "the path of a case file, NAME.toml".to_owned(),
-            fix,
-        };
-        CaseError::Unreadable(
-            Source {
-                name: &name,
-                text: "",
-            }
-            .render(Level::Error, &diagnostic),
-        )
+        let diagnostic = Diagnostic { what, span: None, allowed: "the path of a case file, NAME.toml".to_owned(), fix };
+        CaseError::Unreadable(Source { name: &name, text: "" }.render(Level::Error, &diagnostic))
     })?;
     parse(&bytes, &name)
 }
@@ -93,45 +80,26 @@ fn read(path: &Path) -> Result<String, (String, String)> {
     let name = path.display();
     let failed = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound => {
-            let fix =
-                "check the spelling and the directory from which the command is run".to_owned();
+            let fix = "check the spelling and the directory from which the command is run".to_owned();
             (format!("{name} does not exist"), fix)
         }
-        io::ErrorKind::PermissionDenied => (
-            format!("{name} may not be read"),
-            "change the permissions of the file".to_owned(),
-        ),
-        _ => (
-            format!("{name} cannot be read: {error}"),
-            "give the path of a file that can be read".to_owned(),
-        ),
+        io::ErrorKind::PermissionDenied => {
+            (format!("{name} may not be read"), "change the permissions of the file".to_owned())
+        }
+        _ => (format!("{name} cannot be read: {error}"), "give the path of a file that can be read".to_owned()),
     };
     if path.is_dir() {
-        return Err((
-            format!("{name} is a directory"),
-            "give one of the .toml files in it".to_owned(),
-        ));
+        return Err((format!("{name} is a directory"), "give one of the .toml files in it".to_owned()));
     }
     let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(LONGEST_FILE + 1).read_to_end(&mut bytes))
-        .map_err(failed)?;
+    File::open(path).and_then(|file| file.take(LONGEST_FILE + 1).read_to_end(&mut bytes)).map_err(failed)?;
     let not_a_case = "give a case file; results, meshes and images are not input".to_owned();
     if bytes.len() as u64 > LONGEST_FILE {
-        return Err((
-            format!(
-                "{name} is longer than {} MiB and no case file",
-                LONGEST_FILE >> 20
-            ),
-            not_a_case,
-        ));
+        return Err((format!("{name} is longer than {} MiB and no case file", LONGEST_FILE >> 20), not_a_case));
     }
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
-        (
-            format!("{name} is not text in UTF-8: byte {byte} is not part of a character"),
-            not_a_case,
-        )
+        (format!("{name} is not text in UTF-8: byte {byte} is not part of a character"), not_a_case)
     })
 }
 
@@ -139,36 +107,23 @@ fn read(path: &Path) -> Result<String, (String, String)> {
 pub fn parse(text: &str, name: &str) -> Result<LoadedCase, CaseError> {
     let source = Source { name, text };
     let render = |level, diagnostics: &[Diagnostic]| -> Vec<String> {
-        diagnostics
-            .iter()
-            .map(|diagnostic| source.render(level, diagnostic))
-            .collect()
+        diagnostics.iter().map(|diagnostic| source.render(level, diagnostic)).collect()
     };
-    let (mut case, document) = parse::case_and_document(&source).map_err(|diagnostics| {
-        CaseError::Malformed(joined(name, &render(Level::Error, &diagnostics)))
-    })?;
+    let (mut case, document) = parse::case_and_document(&source)
+        .map_err(|diagnostics| CaseError::Malformed(joined(name, &render(Level::Error, &diagnostics))))?;
 
     let findings = validate(&case);
     let place = |problems: &[Problem]| -> Vec<Diagnostic> {
-        problems
-            .iter()
-            .map(|problem| source.diagnose(&document, problem))
-            .collect()
+        problems.iter().map(|problem| source.diagnose(&document, problem)).collect()
     };
     if !findings.problems.is_empty() {
         let mut diagnostics = place(&findings.problems);
         diagnostics.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
         let report = joined(name, &render(Level::Error, &diagnostics));
-        return Err(CaseError::Invalid {
-            report,
-            problems: findings.problems,
-        });
+        return Err(CaseError::Invalid { report, problems: findings.problems });
     }
     case.resolve();
-    Ok(LoadedCase {
-        case,
-        warnings: render(Level::Warning, &place(&findings.warnings)),
-    })
+    Ok(LoadedCase { case, warnings: render(Level::Warning, &place(&findings.warnings)) })
 }
 
 fn joined(name: &str, reports: &[String]) -> String {

@@ -17,10 +17,7 @@ pub fn case_and_document<'a>(source: &Source<'a>) -> Result<(Case, DeTable<'a>),
     let root = document.into_inner();
     let misplaced = structure::misplaced(&root);
     if !misplaced.is_empty() {
-        return Err(misplaced
-            .iter()
-            .map(|problem| source.diagnose(&root, problem))
-            .collect());
+        return Err(misplaced.iter().map(|problem| source.diagnose(&root, problem)).collect());
     }
 
     // Serde stops at the first key it does not know. Correcting each such key shows the others.
@@ -59,14 +56,9 @@ fn quoted_names(message: &str) -> (&str, Vec<&str>) {
 
 /// Takes out the key that begins at this byte, or renames it if a name is given and free; false if there is no such key.
 fn correct_key(table: &mut DeTable<'_>, start: usize, name: Option<&str>) -> bool {
-    let found = table
-        .iter()
-        .find(|(key, _)| key.span().start == start)
-        .map(|(key, _)| key.clone());
+    let found = table.iter().find(|(key, _)| key.span().start == start).map(|(key, _)| key.clone());
     let Some(key) = found else {
-        return table
-            .iter_mut()
-            .any(|(_, value)| correct_key_in(value.get_mut(), start, name));
+        return table.iter_mut().any(|(_, value)| correct_key_in(value.get_mut(), start, name));
     };
     if let (Some(value), Some(name)) = (table.remove(key.get_ref().as_ref()), name)
         && !table.contains_key(name)
@@ -79,9 +71,7 @@ fn correct_key(table: &mut DeTable<'_>, start: usize, name: Option<&str>) -> boo
 fn correct_key_in(value: &mut DeValue<'_>, start: usize, name: Option<&str>) -> bool {
     match value {
         DeValue::Table(table) => correct_key(table, start, name),
-        DeValue::Array(array) => array
-            .iter_mut()
-            .any(|value| correct_key_in(value.get_mut(), start, name)),
+        DeValue::Array(array) => array.iter_mut().any(|value| correct_key_in(value.get_mut(), start, name)),
         _ => false,
     }
 }
@@ -91,17 +81,12 @@ fn syntax(source: &Source<'_>, error: &toml::de::Error) -> Diagnostic {
     let start = error.span().map_or(0, |span| span.start);
     let rest = source.text.get(start..).unwrap_or_default();
     let before = source.text.get(..start).unwrap_or_default();
-    let line = source
-        .text
-        .lines()
-        .nth(source.line_and_column(start).0 - 1)
-        .unwrap_or_default();
+    let line = source.text.lines().nth(source.line_and_column(start).0 - 1).unwrap_or_default();
     let fix = if message.contains("duplicate key") {
         "the same key or [table] occurs above: remove or rename one of them"
     } else if rest.starts_with(',') && before.ends_with(|c: char| c.is_ascii_digit()) {
         "write decimals with a point: 0.3, not 0,3"
-    } else if message.contains("string values must be quoted")
-        && rest.trim_start_matches([' ', '\t', '\r']).is_empty()
+    } else if message.contains("string values must be quoted") && rest.trim_start_matches([' ', '\t', '\r']).is_empty()
         || message.contains("string values must be quoted") && rest.starts_with(['\n', '\r', '#'])
     {
         "write a value after the ="
@@ -123,78 +108,40 @@ fn syntax(source: &Source<'_>, error: &toml::de::Error) -> Diagnostic {
         "each line is key = value, a [table], or a comment that begins with #"
     };
     let what = format!("this is not TOML: {message}");
-    let allowed = if source.name.ends_with(".toml") {
-        ""
-    } else {
-        "a case file, a text in TOML format"
-    };
-    Diagnostic {
-        what,
-        span: error.span().or(Some(0..0)),
-        allowed: allowed.to_owned(),
-        fix: fix.to_owned(),
-    }
+    let allowed = if source.name.ends_with(".toml") { "" } else { "a case file, a text in TOML format" };
+    Diagnostic { what, span: error.span().or(Some(0..0)), allowed: allowed.to_owned(), fix: fix.to_owned() }
 }
 
 /// Turns an error of serde into a report. Its messages name the keys and variants that would have been right.
 fn key_or_type(source: &Source<'_>, root: &DeTable<'_>, error: &toml::de::Error) -> Diagnostic {
     let message = error.message();
-    let path = error
-        .span()
-        .filter(|span| !span.is_empty())
-        .and_then(|span| path_at(root, span.start));
+    let path = error.span().filter(|span| !span.is_empty()).and_then(|span| path_at(root, span.start));
     let path = path.unwrap_or_default();
     let (word, names) = quoted_names(message);
-    let listed = names
-        .iter()
-        .map(|name| format!("`{name}`"))
-        .collect::<Vec<_>>()
-        .join(", ");
-    let written = error
-        .span()
-        .and_then(|span| source.text.get(span))
-        .unwrap_or_default();
+    let listed = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let written = error.span().and_then(|span| source.text.get(span)).unwrap_or_default();
     let span = error.span().filter(|_| path != KeyPath::default());
-    let guess =
-        nearest(word, names.iter().copied()).map(|guess| format!("did you mean `{guess}`?"));
+    let guess = nearest(word, names.iter().copied()).map(|guess| format!("did you mean `{guess}`?"));
 
     let (what, allowed, fix) = if message.starts_with("unknown field") {
-        let fix =
-            guess.unwrap_or_else(|| "remove it, or move it to the table it belongs to".to_owned());
+        let fix = guess.unwrap_or_else(|| "remove it, or move it to the table it belongs to".to_owned());
         (format!("{path} is not a key of a case file"), listed, fix)
     } else if message.starts_with("missing field") {
         missing(&path, word)
     } else if message.starts_with("unknown variant") {
         let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
         let fix = guess.unwrap_or_else(|| "choose one of these".to_owned());
-        (
-            format!("{path} = {written} is not allowed"),
-            quoted.join(", "),
-            fix,
-        )
+        (format!("{path} = {written} is not allowed"), quoted.join(", "), fix)
     } else if message.contains("overflow") {
         let fix = "write a number that fits: below 1e308".to_owned();
-        (
-            format!("{path} = {written} is too large"),
-            "a number".to_owned(),
-            fix,
-        )
+        (format!("{path} = {written} is too large"), "a number".to_owned(), fix)
     } else {
         let (allowed, fix) = expected(message, written);
         let short = written.len() <= 60 && !written.starts_with('[');
-        let value = if short {
-            format!(" = {written}")
-        } else {
-            String::new()
-        };
+        let value = if short { format!(" = {written}") } else { String::new() };
         (format!("{path}{value} is not allowed"), allowed, fix)
     };
-    Diagnostic {
-        what,
-        span,
-        allowed,
-        fix,
-    }
+    Diagnostic { what, span, allowed, fix }
 }
 
 fn missing(path: &KeyPath, key: &str) -> (String, String, String) {
@@ -207,47 +154,27 @@ fn missing(path: &KeyPath, key: &str) -> (String, String, String) {
         (false, _) => format!("add {key} = ... below"),
     };
     let what = format!("{} is missing", path.key(key));
-    (
-        what,
-        "this key has no default; validation/flume/40deg.toml explains all keys".to_owned(),
-        fix,
-    )
+    (what, "this key has no default; validation/flume/40deg.toml explains all keys".to_owned(), fix)
 }
 
 /// What serde expected, in words, and what to do about it.
 fn expected(message: &str, written: &str) -> (String, String) {
     let is_text = written.starts_with(['"', '\'']);
     let unquoted = written.trim_matches(['"', '\'']);
-    let (allowed, fix) = match message
-        .rsplit_once("expected ")
-        .map_or("", |(_, expected)| expected)
-    {
+    let (allowed, fix) = match message.rsplit_once("expected ").map_or("", |(_, expected)| expected) {
         "f64" if is_text && unquoted.parse::<f64>().is_ok() => {
             ("a number", format!("write it without quotes: {unquoted}"))
         }
-        "f64" if message.contains("i128") => (
-            "a number",
-            "write large numbers with an exponent: 1e20".to_owned(),
-        ),
+        "f64" if message.contains("i128") => ("a number", "write large numbers with an exponent: 1e20".to_owned()),
         "f64" => ("a number", "write a number such as 1.5 or 1.0e6".to_owned()),
-        "u32" => (
-            "a whole number, not negative",
-            "write a number such as 4, without a decimal point".to_owned(),
-        ),
-        "a boolean" => (
-            "true or false",
-            "write true or false, without quotes".to_owned(),
-        ),
+        "u32" => ("a whole number, not negative", "write a number such as 4, without a decimal point".to_owned()),
+        "a boolean" => ("true or false", "write true or false, without quotes".to_owned()),
         "a string" => ("text in double quotes", format!("write \"{unquoted}\"")),
         "a sequence" => ("a list", "write a list such as [0.1, 0.2]".to_owned()),
-        other if other.starts_with("an array of length 2") => (
-            "two numbers",
-            "write two numbers such as [0.0, 1.0]".to_owned(),
-        ),
-        other if other.starts_with("struct ") => (
-            "a table",
-            "write a [table] with the keys of this part".to_owned(),
-        ),
+        other if other.starts_with("an array of length 2") => {
+            ("two numbers", "write two numbers such as [0.0, 1.0]".to_owned())
+        }
+        other if other.starts_with("struct ") => ("a table", "write a [table] with the keys of this part".to_owned()),
         _ => (
             "one of the words of the format, in double quotes",
             "write one of the words of the format, in double quotes".to_owned(),

@@ -83,11 +83,7 @@ pub fn path_at(root: &DeTable<'_>, start: usize) -> Option<KeyPath> {
 fn path_in_table(table: &DeTable<'_>, start: usize, at: &KeyPath) -> Option<KeyPath> {
     table.iter().find_map(|(key, value)| {
         let path = at.key(key.get_ref());
-        if key.span().start == start {
-            Some(path)
-        } else {
-            path_in_value(value, start, &path)
-        }
+        if key.span().start == start { Some(path) } else { path_in_value(value, start, &path) }
     })
 }
 
@@ -97,10 +93,9 @@ fn path_in_value(value: &Spanned<DeValue<'_>>, start: usize, at: &KeyPath) -> Op
     }
     match value.get_ref() {
         DeValue::Table(table) => path_in_table(table, start, at),
-        DeValue::Array(array) => array
-            .iter()
-            .enumerate()
-            .find_map(|(index, value)| path_in_value(value, start, &at.index(index))),
+        DeValue::Array(array) => {
+            array.iter().enumerate().find_map(|(index, value)| path_in_value(value, start, &at.index(index)))
+        }
         _ => None,
     }
 }
@@ -114,8 +109,7 @@ impl Source<'_> {
             Place::Enclosing(span) => Some(span),
             Place::Value(span) => {
                 let written = self.text.get(span.clone()).unwrap_or_default();
-                let short =
-                    written.chars().count() <= LONGEST_VALUE && !written.contains(['\n', '\r']);
+                let short = written.chars().count() <= LONGEST_VALUE && !written.contains(['\n', '\r']);
                 if short && !problem.value.is_empty() {
                     let assignment = |value: &str| format!("{} = {value} ", problem.path);
                     what = what.replacen(&assignment(&problem.value), &assignment(written), 1);
@@ -123,22 +117,14 @@ impl Source<'_> {
                 Some(span)
             }
         };
-        Diagnostic {
-            what,
-            span,
-            allowed: problem.allowed.clone(),
-            fix: problem.fix.clone(),
-        }
+        Diagnostic { what, span, allowed: problem.allowed.clone(), fix: problem.fix.clone() }
     }
 
     /// Line and column, from 1, in characters.
     pub fn line_and_column(&self, byte: usize) -> (usize, usize) {
         let before = self.text.get(..byte).unwrap_or(self.text);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        (
-            before.matches('\n').count() + 1,
-            before[line_start..].chars().count() + 1,
-        )
+        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
 
     /// Renders a report, ending in a newline.
@@ -152,12 +138,7 @@ impl Source<'_> {
         if let Some(span) = &diagnostic.span {
             let (line, column) = self.line_and_column(span.start);
             gutter = line.to_string().len();
-            let _ = writeln!(
-                out,
-                "{:gutter$}--> {}:{line}:{column}",
-                "",
-                printable(self.name)
-            );
+            let _ = writeln!(out, "{:gutter$}--> {}:{line}:{column}", "", printable(self.name));
             self.render_line(&mut out, line, column, span);
         } else {
             let _ = writeln!(out, "{:gutter$}--> {}", "", printable(self.name));
@@ -171,38 +152,21 @@ impl Source<'_> {
     }
 
     fn render_line(&self, out: &mut String, line: usize, column: usize, span: &Range<usize>) {
-        let content = self
-            .text
-            .split('\n')
-            .nth(line - 1)
-            .unwrap_or_default()
-            .trim_end_matches('\r');
+        let content = self.text.split('\n').nth(line - 1).unwrap_or_default().trim_end_matches('\r');
         let length = content.chars().count();
         if length > LONGEST_LINE {
             return;
         }
         let gutter = line.to_string().len();
-        let marked = self
-            .text
-            .get(span.clone())
-            .map_or(0, |text| text.chars().count());
+        let marked = self.text.get(span.clone()).map_or(0, |text| text.chars().count());
         let marks = marked.min((length + 1).saturating_sub(column)).max(1);
         let _ = writeln!(out, "{:gutter$} |", "");
         let _ = writeln!(out, "{line} | {}", printable(content));
-        let _ = writeln!(
-            out,
-            "{:gutter$} | {:indent$}{}",
-            "",
-            "",
-            "^".repeat(marks),
-            indent = column - 1
-        );
+        let _ = writeln!(out, "{:gutter$} | {:indent$}{}", "", "", "^".repeat(marks), indent = column - 1);
     }
 }
 
 /// Text without control characters, which could garble a terminal; each becomes a space, so that columns stay.
 fn printable(text: &str) -> String {
-    text.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -176,7 +176,8 @@ pub struct Tilt {
 pub struct Run {
     /// The run ends at this time after the gate opens, s, positive.
     pub end_time_s: f64,
-    /// End earlier, when the kinetic energy is below 1e-4 of what was released and the force is steady. Default true.
+    /// End earlier, when the kinetic energy is below 1e-4 of what was released, forces balance to 0.2 % of the weight and the
+    /// force on the barrier is steady. Default true.
     #[serde(default = "yes")]
     pub stop_at_rest: bool,
 }
@@ -225,9 +226,7 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Self {
-        Output {
-            vtk_interval_s: 0.02,
-        }
+        Output { vtk_interval_s: 0.02 }
     }
 }
 
@@ -249,13 +248,7 @@ pub struct Numerics {
 
 impl Default for Numerics {
     fn default() -> Self {
-        Numerics {
-            scheme: Scheme::Musl,
-            cfl: 0.3,
-            pic_fraction: None,
-            pic_rate_per_s: None,
-            max_time_step_s: None,
-        }
+        Numerics { scheme: Scheme::Musl, cfl: 0.3, pic_fraction: None, pic_rate_per_s: None, max_time_step_s: None }
     }
 }
 
@@ -319,24 +312,16 @@ impl Body {
     /// floats because a mistyped case may ask for more than an integer holds.
     pub fn particle_counts(&self, particle_spacing_m: f64) -> [f64; 2] {
         // Points at (i + 1/2) s inside the length L: i + 1/2 <= L/s, with room for rounding.
-        self.size_m().map(|length| {
-            (length / particle_spacing_m + 0.5 + 1.0e-9)
-                .floor()
-                .max(0.0)
-        })
+        self.size_m().map(|length| (length / particle_spacing_m + 0.5 + 1.0e-9).floor().max(0.0))
     }
 }
 
 impl Case {
     /// Fills in every default that depends on another value, so that the case written back to TOML shows all inputs.
     pub fn resolve(&mut self) {
-        self.gravity
-            .settle_inclination_deg
-            .get_or_insert(self.gravity.inclination_deg);
+        self.gravity.settle_inclination_deg.get_or_insert(self.gravity.inclination_deg);
         if self.numerics.pic_rate_per_s.is_none() {
-            self.numerics
-                .pic_fraction
-                .get_or_insert(Numerics::DEFAULT_PIC_FRACTION);
+            self.numerics.pic_fraction.get_or_insert(Numerics::DEFAULT_PIC_FRACTION);
         }
         self.materials.values_mut().for_each(Material::resolve);
         for boundary in &mut self.boundaries {
@@ -357,21 +342,14 @@ impl Case {
     /// Number of particles at the start.
     pub fn particle_count_estimate(&self) -> f64 {
         let spacing = self.particle_spacing_m();
-        self.bodies
-            .iter()
-            .map(|body| body.particle_counts(spacing))
-            .map(|[nx, ny]| nx * ny)
-            .sum()
+        self.bodies.iter().map(|body| body.particle_counts(spacing)).map(|[nx, ny]| nx * ny).sum()
     }
 
     /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`.
     /// Infinite if there is no body.
     pub fn time_step_estimate_s(&self) -> f64 {
         let speed = |body: &Body| {
-            let wave = self
-                .materials
-                .get(&body.material)
-                .map_or(0.0, Material::p_wave_speed_m_per_s);
+            let wave = self.materials.get(&body.material).map_or(0.0, Material::p_wave_speed_m_per_s);
             wave + body.velocity_m_per_s[0].hypot(body.velocity_m_per_s[1])
         };
         let fastest = self.bodies.iter().map(speed).fold(0.0, f64::max);

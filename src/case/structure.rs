@@ -6,28 +6,11 @@ use toml::de::{DeTable, DeValue};
 use super::path::KeyPath;
 use super::validate::Problem;
 
-const TABLES: [&str; 9] = [
-    "gravity",
-    "grid",
-    "domain",
-    "materials",
-    "side_walls",
-    "stages",
-    "gauges",
-    "output",
-    "numerics",
-];
+const TABLES: [&str; 9] =
+    ["gravity", "grid", "domain", "materials", "side_walls", "stages", "gauges", "output", "numerics"];
 const TABLES_OF_STAGES: [&str; 3] = ["settle", "tilt", "run"];
 const LISTS: [&str; 2] = ["bodies", "boundaries"];
-const PAIRS: [&str; 7] = [
-    "x_m",
-    "y_m",
-    "velocity_m_per_s",
-    "point_m",
-    "foot_m",
-    "window_x_m",
-    "window_y_m",
-];
+const PAIRS: [&str; 7] = ["x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "window_x_m", "window_y_m"];
 
 /// Tables, lists of tables and pairs of numbers that are something else.
 pub fn misplaced(root: &DeTable<'_>) -> Vec<Problem> {
@@ -49,8 +32,7 @@ fn tables(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
         return;
     };
     let is_materials = path.last_key() == "materials";
-    if is_materials && !table.is_empty() && !table.values().any(|value| value.get_ref().is_table())
-    {
+    if is_materials && !table.is_empty() && !table.values().any(|value| value.get_ref().is_table()) {
         return problems.push(Problem {
             path: path.clone(),
             what: "materials has no named material".to_owned(),
@@ -69,9 +51,7 @@ fn tables(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
 }
 
 fn list(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
-    let tables = value
-        .as_array()
-        .filter(|array| array.iter().all(|value| value.get_ref().is_table()));
+    let tables = value.as_array().filter(|array| array.iter().all(|value| value.get_ref().is_table()));
     match tables {
         Some(array) => {
             for (index, table) in array.iter().enumerate() {
@@ -97,11 +77,7 @@ fn expect_table<'a, 'i>(
 ) -> Option<&'a DeTable<'i>> {
     let table = value.as_table();
     if table.is_none() {
-        let header = if path.to_string() == "materials" {
-            "materials.NAME".to_owned()
-        } else {
-            path.to_string()
-        };
+        let header = if path.to_string() == "materials" { "materials.NAME".to_owned() } else { path.to_string() };
         problems.push(Problem {
             path: path.clone(),
             what: format!("{path} is not a table"),

@@ -25,11 +25,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter_map(|candidate| {
             let lower = candidate.to_lowercase();
             let begins = word.len() > 2 && (lower.starts_with(&word) || word.starts_with(&lower));
-            let distance = if begins {
-                1
-            } else {
-                edit_distance(&word, &lower)
-            };
+            let distance = if begins { 1 } else { edit_distance(&word, &lower) };
             (distance <= near && distance < lower.chars().count()).then_some((distance, candidate))
         })
         .min_by_key(|(distance, _)| *distance)
@@ -37,15 +33,9 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 }
 
 /// A sentence that names the nearest candidate, if any, and all of them.
-pub fn did_you_mean<'a>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'a str> + Clone,
-) -> String {
+pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str> + Clone) -> String {
     let guess = nearest(word, candidates.clone());
-    let quoted: Vec<String> = candidates
-        .into_iter()
-        .map(|name| format!("`{name}`"))
-        .collect();
+    let quoted: Vec<String> = candidates.into_iter().map(|name| format!("`{name}`")).collect();
     match (guess, quoted.is_empty()) {
         (Some(guess), _) => format!("did you mean `{guess}`?"),
         (None, false) => format!("use one of {}", quoted.join(", ")),

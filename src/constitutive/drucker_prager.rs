@@ -119,7 +119,8 @@ impl Law for DruckerPrager {
         let tau = max(0.0, min(tau_trial, self.cohesion - self.friction * mean));
 
         let scale = if tau_trial > 0.0 { tau / tau_trial } else { 0.0 };
-        let after = Stress { xx: mean + scale * dx, yy: mean + scale * dy, zz: mean + scale * dz, xy: scale * trial.xy };
+        let after =
+            Stress { xx: mean + scale * dx, yy: mean + scale * dy, zz: mean + scale * dz, xy: scale * trial.xy };
 
         let opening = (mean_cone - mean) / bulk;
         state.opened = if self.void_tracking { still_open + opening } else { 0.0 };

@@ -24,27 +24,17 @@ impl AtomicFile {
     /// [`OutputError::Create`] if the directory is missing or not writable.
     pub fn create(path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let path = path.as_ref().to_path_buf();
-        let fail = |source| OutputError::Create {
-            path: path.clone(),
-            source,
-        };
+        let fail = |source| OutputError::Create { path: path.clone(), source };
         let mut name = match path.file_name() {
             Some(name) => OsString::from(name),
             None => {
-                return Err(fail(io::Error::new(
-                    io::ErrorKind::InvalidInput,
-                    "the path names no file",
-                )));
+                return Err(fail(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file")));
             }
         };
         name.push(".tmp");
         let temporary = path.with_file_name(name);
         let file = File::create(&temporary).map_err(fail)?;
-        Ok(Self {
-            path,
-            temporary,
-            writer: Some(BufWriter::with_capacity(1 << 16, file)),
-        })
+        Ok(Self { path, temporary, writer: Some(BufWriter::with_capacity(1 << 16, file)) })
     }
 
     /// Puts the finished file in its place.
@@ -57,10 +47,7 @@ impl AtomicFile {
 
     /// The error for a failed write to this file.
     pub(crate) fn failure(&self, source: io::Error) -> OutputError {
-        OutputError::Write {
-            path: self.path.clone(),
-            source,
-        }
+        OutputError::Write { path: self.path.clone(), source }
     }
 
     fn settle(&mut self) -> io::Result<()> {
@@ -74,9 +61,7 @@ impl AtomicFile {
     }
 
     fn writer(&mut self) -> io::Result<&mut BufWriter<File>> {
-        self.writer
-            .as_mut()
-            .ok_or_else(|| io::Error::other("the file is already in its place"))
+        self.writer.as_mut().ok_or_else(|| io::Error::other("the file is already in its place"))
     }
 }
 
@@ -106,8 +91,7 @@ impl Drop for AtomicFile {
 /// [`OutputError::Create`] or [`OutputError::Write`]; an earlier version of the file is then unchanged.
 pub fn write_text(path: impl AsRef<Path>, text: &str) -> Result<(), OutputError> {
     let mut file = AtomicFile::create(path)?;
-    file.write_all(text.as_bytes())
-        .map_err(|source| file.failure(source))?;
+    file.write_all(text.as_bytes()).map_err(|source| file.failure(source))?;
     file.commit()
 }
 
@@ -139,13 +123,8 @@ mod tests {
 
     #[test]
     fn a_missing_directory_is_named() {
-        let message = write_text("no/such/directory/summary.txt", "")
-            .unwrap_err()
-            .to_string();
-        assert!(
-            message.contains("no/such/directory/summary.txt"),
-            "{message}"
-        );
+        let message = write_text("no/such/directory/summary.txt", "").unwrap_err().to_string();
+        assert!(message.contains("no/such/directory/summary.txt"), "{message}");
         assert!(message.contains("check that the path exists"), "{message}");
     }
 }

@@ -17,10 +17,7 @@ pub enum OutputError {
         source: io::Error,
     },
     /// Writing a file that appears only when complete failed; an earlier version of it, if any, is untouched.
-    #[error(
-        "cannot write {path}: {source}; {}; an earlier version of the file is unchanged",
-        advice(source)
-    )]
+    #[error("cannot write {path}: {source}; {}; an earlier version of the file is unchanged", advice(source))]
     Write {
         /// The file wanted.
         path: PathBuf,

@@ -19,10 +19,7 @@ impl PvdWriter {
     /// # Errors
     /// [`OutputError::Create`] or [`OutputError::Write`].
     pub fn create(path: impl AsRef<Path>) -> Result<Self, OutputError> {
-        let writer = Self {
-            path: path.as_ref().to_path_buf(),
-            entries: String::new(),
-        };
+        let writer = Self { path: path.as_ref().to_path_buf(), entries: String::new() };
         writer.rewrite()?;
         Ok(writer)
     }
@@ -36,17 +33,11 @@ impl PvdWriter {
     pub fn frame(&mut self, time_s: f64, part: u32, file: &str) -> Result<(), OutputError> {
         if file.is_empty() || file.contains('\\') || Path::new(file).has_root() {
             let reason = "a frame is given relative to its collection, with / between the parts";
-            return Err(OutputError::Name {
-                path: self.path.clone(),
-                name: file.to_owned(),
-                reason,
-            });
+            return Err(OutputError::Name { path: self.path.clone(), name: file.to_owned(), reason });
         }
         let file = escape(file);
-        let _ = writeln!(
-            self.entries,
-            "    <DataSet timestep=\"{time_s}\" group=\"\" part=\"{part}\" file=\"{file}\"/>"
-        );
+        let _ =
+            writeln!(self.entries, "    <DataSet timestep=\"{time_s}\" group=\"\" part=\"{part}\" file=\"{file}\"/>");
         self.rewrite()
     }
 
@@ -73,23 +64,16 @@ mod tests {
             let text = std::fs::read_to_string(&path).unwrap();
             assert_eq!(text.matches("<DataSet").count(), k as usize);
             assert!(text.ends_with("</VTKFile>\n"));
-            writer
-                .frame(f64::from(k) * 0.02, 0, &format!("vtk/points_{k:04}.vtp"))
-                .unwrap();
+            writer.frame(f64::from(k) * 0.02, 0, &format!("vtk/points_{k:04}.vtp")).unwrap();
         }
         let text = std::fs::read_to_string(&path).unwrap();
-        assert!(
-            text.contains("timestep=\"0.02\" group=\"\" part=\"0\" file=\"vtk/points_0001.vtp\"")
-        );
+        assert!(text.contains("timestep=\"0.02\" group=\"\" part=\"0\" file=\"vtk/points_0001.vtp\""));
     }
 
     #[test]
     fn an_absolute_frame_is_refused() {
         let directory = tempfile::tempdir().unwrap();
         let mut writer = PvdWriter::create(directory.path().join("run.pvd")).unwrap();
-        assert!(matches!(
-            writer.frame(0.0, 0, "/points.vtp"),
-            Err(OutputError::Name { .. })
-        ));
+        assert!(matches!(writer.frame(0.0, 0, "/points.vtp"), Err(OutputError::Name { .. })));
     }
 }

@@ -40,32 +40,19 @@ impl TableWriter {
     /// # Errors
     /// [`OutputError::Name`] for a name that is empty, repeated, or holds a comma, a quote or a line break;
     /// [`OutputError::Create`] or [`OutputError::Append`] if the file cannot be written.
-    pub fn create<S: AsRef<str>>(
-        path: impl AsRef<Path>,
-        columns: &[S],
-    ) -> Result<Self, OutputError> {
+    pub fn create<S: AsRef<str>>(path: impl AsRef<Path>, columns: &[S]) -> Result<Self, OutputError> {
         let path = path.as_ref().to_path_buf();
         let mut header = String::new();
-        let refuse = |name: &str, reason| OutputError::Name {
-            path: path.clone(),
-            name: name.to_owned(),
-            reason,
-        };
+        let refuse = |name: &str, reason| OutputError::Name { path: path.clone(), name: name.to_owned(), reason };
         if columns.is_empty() {
             return Err(refuse("", "a table needs at least one column"));
         }
         for (k, name) in columns.iter().map(AsRef::as_ref).enumerate() {
             if name.is_empty() || name.trim() != name {
-                return Err(refuse(
-                    name,
-                    "a column name is not empty and has no space at its ends",
-                ));
+                return Err(refuse(name, "a column name is not empty and has no space at its ends"));
             }
             if name.contains([',', '"', '\n', '\r']) {
-                return Err(refuse(
-                    name,
-                    "a column name has no comma, quote or line break",
-                ));
+                return Err(refuse(name, "a column name has no comma, quote or line break"));
             }
             if columns[..k].iter().any(|other| other.as_ref() == name) {
                 return Err(refuse(name, "a column name stands once in a table"));
@@ -74,10 +61,7 @@ impl TableWriter {
             header.push_str(name);
         }
         header.push('\n');
-        let file = File::create(&path).map_err(|source| OutputError::Create {
-            path: path.clone(),
-            source,
-        })?;
+        let file = File::create(&path).map_err(|source| OutputError::Create { path: path.clone(), source })?;
         let mut writer = Self {
             path,
             file,
@@ -107,11 +91,7 @@ impl TableWriter {
     pub fn row(&mut self, values: &[f64]) -> Result<(), OutputError> {
         if values.len() != self.columns {
             let (expected, found) = (self.columns, values.len());
-            return Err(OutputError::RowLength {
-                path: self.path.clone(),
-                expected,
-                found,
-            });
+            return Err(OutputError::RowLength { path: self.path.clone(), expected, found });
         }
         if let [value] = values
             && value.is_nan()
@@ -128,11 +108,7 @@ impl TableWriter {
         }
         self.buffer.push(b'\n');
         self.pending += 1;
-        if self.buffer.len() >= BUFFER_BYTES {
-            self.flush()
-        } else {
-            Ok(())
-        }
+        if self.buffer.len() >= BUFFER_BYTES { self.flush() } else { Ok(()) }
     }
 
     /// Hands all rows to the file, so that another program can read them.
@@ -154,14 +130,8 @@ impl TableWriter {
                 break;
             }
         }
-        let whole = self.buffer[..taken]
-            .iter()
-            .rposition(|byte| *byte == b'\n')
-            .map_or(0, |k| k + 1);
-        let rows = self.buffer[..whole]
-            .iter()
-            .filter(|byte| **byte == b'\n')
-            .count() as u64;
+        let whole = self.buffer[..taken].iter().rposition(|byte| *byte == b'\n').map_or(0, |k| k + 1);
+        let rows = self.buffer[..whole].iter().filter(|byte| **byte == b'\n').count() as u64;
         self.bytes += whole as u64;
         self.lines += rows;
         self.pending -= rows;
@@ -170,12 +140,7 @@ impl TableWriter {
         let _ = self.file.set_len(self.bytes);
         let _ = self.file.seek(SeekFrom::Start(self.bytes));
         let path = self.path.clone();
-        Err(OutputError::Append {
-            path,
-            rows: self.lines.saturating_sub(1),
-            pending: self.pending,
-            source,
-        })
+        Err(OutputError::Append { path, rows: self.lines.saturating_sub(1), pending: self.pending, source })
     }
 
     /// Writes what is left, syncs the file to the disk and returns the number of rows in it.
@@ -244,22 +209,10 @@ impl Table {
     /// [`OutputError::Open`], or [`OutputError::Malformed`] for a line whose number of cells differs from the header's.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let path = path.as_ref().to_path_buf();
-        let malformed = |line, reason: String| OutputError::Malformed {
-            path: path.clone(),
-            line,
-            reason,
-        };
-        let file = File::open(&path).map_err(|source| OutputError::Open {
-            path: path.clone(),
-            source,
-        })?;
-        let mut reader = csv::ReaderBuilder::new()
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .from_reader(file);
-        let header = reader
-            .headers()
-            .map_err(|error| malformed(1, error.to_string()))?;
+        let malformed = |line, reason: String| OutputError::Malformed { path: path.clone(), line, reason };
+        let file = File::open(&path).map_err(|source| OutputError::Open { path: path.clone(), source })?;
+        let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(file);
+        let header = reader.headers().map_err(|error| malformed(1, error.to_string()))?;
         let names: Vec<String> = header.iter().map(str::to_owned).collect();
         if names.is_empty() {
             return Err(malformed(1, "there is no header".to_owned()));
@@ -269,10 +222,7 @@ impl Table {
         let mut record = csv::StringRecord::new();
         loop {
             let line = reader.position().line();
-            if !reader
-                .read_record(&mut record)
-                .map_err(|error| malformed(line, error.to_string()))?
-            {
+            if !reader.read_record(&mut record).map_err(|error| malformed(line, error.to_string()))? {
                 break;
             }
             let line = record.position().map_or(line, csv::Position::line);
@@ -290,12 +240,7 @@ impl Table {
             }
             rows += 1;
         }
-        Ok(Self {
-            path,
-            names,
-            columns,
-            rows,
-        })
+        Ok(Self { path, names, columns, rows })
     }
 
     /// The file the table was read from.
@@ -324,20 +269,14 @@ impl Table {
         let path = || self.path.clone();
         let Some(k) = self.names.iter().position(|other| other == name) else {
             let available = self.names.join(", ");
-            return Err(OutputError::MissingColumn {
-                path: path(),
-                column: name.to_owned(),
-                available,
-            });
+            return Err(OutputError::MissingColumn { path: path(), column: name.to_owned(), available });
         };
-        self.columns[k]
-            .as_deref()
-            .map_err(|(line, text)| OutputError::NotANumber {
-                path: path(),
-                column: name.to_owned(),
-                line: *line,
-                text: text.clone(),
-            })
+        self.columns[k].as_deref().map_err(|(line, text)| OutputError::NotANumber {
+            path: path(),
+            column: name.to_owned(),
+            line: *line,
+            text: text.clone(),
+        })
     }
 }
 

@@ -34,14 +34,7 @@ fn numbers_are_rounded_short_and_plain() {
 
 #[test]
 fn seventeen_digits_keep_every_bit() {
-    for value in [
-        0.1,
-        1.0 / 3.0,
-        6.022e23,
-        f64::MAX,
-        f64::MIN_POSITIVE,
-        5e-324,
-    ] {
+    for value in [0.1, 1.0 / 3.0, 6.022e23, f64::MAX, f64::MIN_POSITIVE, 5e-324] {
         let mut text = String::new();
         push_number(&mut text, value, 17);
         assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits());
@@ -55,18 +48,13 @@ fn what_is_written_is_read_back() {
     let mut writer = TableWriter::create(&path, &["time_s", "force_normal_n"]).unwrap();
     for k in 0..5000 {
         let time = f64::from(k) * 1e-3;
-        writer
-            .row(&[time, if k == 7 { f64::NAN } else { 100.0 * time }])
-            .unwrap();
+        writer.row(&[time, if k == 7 { f64::NAN } else { 100.0 * time }]).unwrap();
     }
     assert_eq!(writer.finish().unwrap(), 5000);
     let table = Table::load(&path).unwrap();
     assert_eq!(table.names(), ["time_s", "force_normal_n"]);
     assert_eq!(table.rows(), 5000);
-    let (time, force) = (
-        table.column("time_s").unwrap(),
-        table.column("force_normal_n").unwrap(),
-    );
+    let (time, force) = (table.column("time_s").unwrap(), table.column("force_normal_n").unwrap());
     assert!((time[4321] - 4.321).abs() < 1e-12);
     assert!(force[7].is_nan());
     assert!((force[8] - 0.8).abs() < 1e-9);
@@ -81,10 +69,7 @@ fn a_lone_empty_cell_is_still_a_row() {
         writer.row(&[value]).unwrap();
     }
     writer.finish().unwrap();
-    assert_eq!(
-        std::fs::read_to_string(&path).unwrap(),
-        "depth_m\n1\n\"\"\n2\n"
-    );
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "depth_m\n1\n\"\"\n2\n");
     assert!(Table::load(&path).unwrap().column("depth_m").unwrap()[1].is_nan());
 }
 
@@ -92,9 +77,7 @@ fn a_lone_empty_cell_is_still_a_row() {
 fn rows_are_in_the_file_after_a_flush_or_an_early_end() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("history.csv");
-    let mut writer = TableWriter::create(&path, &["time_s"])
-        .unwrap()
-        .with_digits(3);
+    let mut writer = TableWriter::create(&path, &["time_s"]).unwrap().with_digits(3);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "time_s\n");
     writer.row(&[1.23456]).unwrap();
     writer.flush().unwrap();
@@ -109,20 +92,10 @@ fn names_and_rows_that_do_not_fit_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("t.csv");
     for columns in [&["a,b"][..], &["a", "a"], &[""], &[" a"], &[]] {
-        assert!(matches!(
-            TableWriter::create(&path, columns),
-            Err(OutputError::Name { .. })
-        ));
+        assert!(matches!(TableWriter::create(&path, columns), Err(OutputError::Name { .. })));
     }
     let mut writer = TableWriter::create(&path, &["a", "b"]).unwrap();
-    assert!(matches!(
-        writer.row(&[1.0]),
-        Err(OutputError::RowLength {
-            expected: 2,
-            found: 1,
-            ..
-        })
-    ));
+    assert!(matches!(writer.row(&[1.0]), Err(OutputError::RowLength { expected: 2, found: 1, .. })));
 }
 
 #[test]
@@ -133,28 +106,14 @@ fn reading_errors_name_file_column_and_line() {
     let table = Table::load(&path).unwrap();
     assert_eq!(table.column("time_s").unwrap(), [1.0, 2.0]);
     let message = table.column("note").unwrap_err().to_string();
-    assert!(
-        message.ends_with("t.csv, line 2, column \"note\": \"good\" is not a number"),
-        "{message}"
-    );
+    assert!(message.ends_with("t.csv, line 2, column \"note\": \"good\" is not a number"), "{message}");
     let message = table.column("force_n").unwrap_err().to_string();
-    assert!(
-        message.ends_with("t.csv has no column \"force_n\"; it has: time_s, note"),
-        "{message}"
-    );
+    assert!(message.ends_with("t.csv has no column \"force_n\"; it has: time_s, note"), "{message}");
     std::fs::write(&path, "a,b\n1,2\n3\n").unwrap();
     let message = Table::load(&path).unwrap_err().to_string();
-    assert!(
-        message.contains("t.csv, line 3: 1 cells under a header of 2"),
-        "{message}"
-    );
-    let message = Table::load(directory.path().join("none.csv"))
-        .unwrap_err()
-        .to_string();
-    assert!(
-        message.contains("cannot read") && message.contains("none.csv"),
-        "{message}"
-    );
+    assert!(message.contains("t.csv, line 3: 1 cells under a header of 2"), "{message}");
+    let message = Table::load(directory.path().join("none.csv")).unwrap_err().to_string();
+    assert!(message.contains("cannot read") && message.contains("none.csv"), "{message}");
 }
 
 #[test]
@@ -163,12 +122,6 @@ fn a_full_disk_is_reported_with_the_rows_that_are_safe() {
     // This device accepts an open and refuses every write.
     let error = TableWriter::create("/dev/full", &["time_s"]).unwrap_err();
     let message = error.to_string();
-    assert!(
-        matches!(error, OutputError::Append { rows: 0, .. }),
-        "{message}"
-    );
-    assert!(
-        message.contains("0 complete rows") && message.contains("the disk is full"),
-        "{message}"
-    );
+    assert!(matches!(error, OutputError::Append { rows: 0, .. }), "{message}");
+    assert!(message.contains("0 complete rows") && message.contains("the disk is full"), "{message}");
 }

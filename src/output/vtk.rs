@@ -29,11 +29,7 @@ impl Values<'_> {
     }
 
     fn type_name(&self) -> &'static str {
-        if matches!(self, Values::Integer(_)) {
-            "Int64"
-        } else {
-            "Float64"
-        }
+        if matches!(self, Values::Integer(_)) { "Int64" } else { "Float64" }
     }
 
     fn write(&self, out: &mut impl Write, k: usize) -> io::Result<()> {
@@ -42,13 +38,9 @@ impl Values<'_> {
             Values::Scalar(value) => out.write_all(&value(k).to_le_bytes()),
             Values::Vector(value) => {
                 let [x, y] = value(k);
-                [x, y, 0.0]
-                    .iter()
-                    .try_for_each(|v: &f64| out.write_all(&v.to_le_bytes()))
+                [x, y, 0.0].iter().try_for_each(|v: &f64| out.write_all(&v.to_le_bytes()))
             }
-            Values::SymmetricTensor(value) => value(k)
-                .iter()
-                .try_for_each(|v| out.write_all(&v.to_le_bytes())),
+            Values::SymmetricTensor(value) => value(k).iter().try_for_each(|v| out.write_all(&v.to_le_bytes())),
         }
     }
 }
@@ -90,11 +82,7 @@ pub fn write_points(
         let repeated = fields[..k].iter().any(|other| other.name == field.name);
         if field.name.is_empty() || repeated {
             let (path, name) = (path.as_ref().to_path_buf(), field.name.to_owned());
-            return Err(OutputError::Name {
-                path,
-                name,
-                reason: "a field name is not empty and stands once",
-            });
+            return Err(OutputError::Name { path, name, reason: "a field name is not empty and stands once" });
         }
     }
     let time = |_| time_s;
@@ -128,18 +116,12 @@ pub fn write_points(
 ///
 /// # Errors
 /// [`OutputError::Create`] or [`OutputError::Write`].
-pub fn write_polylines(
-    path: impl AsRef<Path>,
-    outlines: &[Polyline<'_>],
-) -> Result<(), OutputError> {
+pub fn write_polylines(path: impl AsRef<Path>, outlines: &[Polyline<'_>]) -> Result<(), OutputError> {
     // VTK numbers the cells of a piece lines first, polygons after them.
     let mut cells: Vec<&Polyline<'_>> = outlines.iter().collect();
     cells.sort_by_key(|outline| outline.closed);
     let lines = cells.iter().filter(|outline| !outline.closed).count();
-    let points: Vec<[f64; 2]> = cells
-        .iter()
-        .flat_map(|outline| outline.points_m.iter().copied())
-        .collect();
+    let points: Vec<[f64; 2]> = cells.iter().flat_map(|outline| outline.points_m.iter().copied()).collect();
     let ends: Vec<i64> = cells
         .iter()
         .scan(0, |end, outline| {
@@ -170,16 +152,8 @@ pub fn write_polylines(
     file.array("offsets", lines, Values::Integer(&line_end));
     file.close("</Lines>");
     file.open("<Polys>");
-    file.array(
-        "connectivity",
-        points.len() - line_points,
-        Values::Integer(&polygon_index),
-    );
-    file.array(
-        "offsets",
-        cells.len() - lines,
-        Values::Integer(&polygon_end),
-    );
+    file.array("connectivity", points.len() - line_points, Values::Integer(&polygon_index));
+    file.array("offsets", cells.len() - lines, Values::Integer(&polygon_end));
     file.close("</Polys>");
     file.open("<CellData>");
     file.array("boundary", cells.len(), Values::Integer(&boundary));
@@ -190,10 +164,7 @@ pub fn write_polylines(
 
 /// Text as it may stand in an XML attribute.
 pub(super) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// The XML part of a file and the arrays that follow it, in the order of their offsets.
@@ -207,12 +178,7 @@ struct PolyData<'a> {
 
 impl<'a> PolyData<'a> {
     fn line(&mut self, text: &str) {
-        let _ = writeln!(
-            self.xml,
-            "{:indent$}{text}",
-            "",
-            indent = 4 + 2 * self.depth
-        );
+        let _ = writeln!(self.xml, "{:indent$}{text}", "", indent = 4 + 2 * self.depth);
     }
 
     fn open(&mut self, tag: &str) {
@@ -249,8 +215,7 @@ impl<'a> PolyData<'a> {
 
     fn write(&self, path: &Path) -> Result<(), OutputError> {
         let mut file = AtomicFile::create(path)?;
-        self.stream(&mut file)
-            .map_err(|source| file.failure(source))?;
+        self.stream(&mut file).map_err(|source| file.failure(source))?;
         file.commit()
     }
 

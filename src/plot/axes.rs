@@ -23,48 +23,27 @@ impl Axis {
         let (lo, hi) = widened(lo, hi);
         let step = step(hi - lo, count);
         let next = (hi / step).ceil() * step;
-        Self::with_step(
-            lo,
-            if next - hi < 0.005 * (hi - lo) {
-                next
-            } else {
-                hi
-            },
-            step,
-        )
+        Self::with_step(lo, if next - hi < 0.005 * (hi - lo) { next } else { hi }, step)
     }
 
     /// Covers at least `lo` to `hi` and ends on ticks.
     pub(super) fn round(lo: f64, hi: f64, count: usize) -> Self {
         let (lo, hi) = widened(lo, hi);
         let step = step(hi - lo, count);
-        Self::with_step(
-            (lo / step + 1e-9).floor() * step,
-            (hi / step - 1e-9).ceil() * step,
-            step,
-        )
+        Self::with_step((lo / step + 1e-9).floor() * step, (hi / step - 1e-9).ceil() * step, step)
     }
 
     fn with_step(lo: f64, hi: f64, step: f64) -> Self {
         let first = (lo / step - 1e-9).ceil() as i64;
         let last = (hi / step + 1e-9).floor() as i64;
         let ticks = (first..=last).map(|k| k as f64 * step).collect();
-        Self {
-            lo,
-            hi,
-            ticks,
-            decimals: (-step.log10() - 1e-9).ceil().max(0.0) as usize,
-        }
+        Self { lo, hi, ticks, decimals: (-step.log10() - 1e-9).ceil().max(0.0) as usize }
     }
 
     /// A tick as text.
     pub(super) fn label(&self, value: f64) -> String {
         let text = format!("{value:.*}", self.decimals);
-        if value.abs() < 1e-9 * (self.hi - self.lo) {
-            text.replace('-', "")
-        } else {
-            text.replace('-', "\u{2212}")
-        }
+        if value.abs() < 1e-9 * (self.hi - self.lo) { text.replace('-', "") } else { text.replace('-', "\u{2212}") }
     }
 }
 
@@ -78,11 +57,7 @@ impl Ranged for Axis {
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        if hint.weight().allow_light_points() {
-            Vec::new()
-        } else {
-            self.ticks.clone()
-        }
+        if hint.weight().allow_light_points() { Vec::new() } else { self.ticks.clone() }
     }
 
     fn range(&self) -> std::ops::Range<f64> {
@@ -98,11 +73,7 @@ impl ValueFormatter<f64> for Axis {
 
 /// The range itself, or one around it if it has no width.
 fn widened(lo: f64, hi: f64) -> (f64, f64) {
-    if hi - lo > 1e-12 * hi.abs().max(lo.abs()) {
-        (lo, hi)
-    } else {
-        (lo - 0.5, hi.max(lo) + 0.5)
-    }
+    if hi - lo > 1e-12 * hi.abs().max(lo.abs()) { (lo, hi) } else { (lo - 0.5, hi.max(lo) + 0.5) }
 }
 
 /// The round step that cuts `span` into about `count` parts.
@@ -160,9 +131,7 @@ impl<'a> Frame<'a> {
             .y_desc(y_title)
             .draw()
             .map_err(drawing)?;
-        Ok(Self {
-            area: chart.plotting_area().clone(),
-        })
+        Ok(Self { area: chart.plotting_area().clone() })
     }
 
     /// Where a pair of values lies on the canvas.
@@ -177,18 +146,9 @@ impl<'a> Frame<'a> {
     }
 
     /// Draws a series as a line, thinned to first, least, largest and last value of each half pixel, broken at gaps.
-    pub(super) fn series(
-        &self,
-        canvas: &Canvas<'_>,
-        x: &[f64],
-        y: &[f64],
-        style: ShapeStyle,
-    ) -> Result<(), PlotError> {
-        let spots: Vec<Option<Spot>> = x
-            .iter()
-            .zip(y)
-            .map(|(x, y)| (x.is_finite() && y.is_finite()).then(|| self.spot(*x, *y)))
-            .collect();
+    pub(super) fn series(&self, canvas: &Canvas<'_>, x: &[f64], y: &[f64], style: ShapeStyle) -> Result<(), PlotError> {
+        let spots: Vec<Option<Spot>> =
+            x.iter().zip(y).map(|(x, y)| (x.is_finite() && y.is_finite()).then(|| self.spot(*x, *y))).collect();
         for part in spots.split(Option::is_none) {
             let part: Vec<Spot> = part.iter().flatten().copied().collect();
             if part.len() > 1 {
@@ -204,11 +164,7 @@ fn thin(spots: &[Spot]) -> Vec<Spot> {
     let column = |spot: &Spot| spot.0.div_euclid(UNIT / 2);
     let mut kept: Vec<Spot> = Vec::new();
     for group in spots.chunk_by(|a, b| column(a) == column(b)) {
-        let extreme = |sign: i32| {
-            (0..group.len())
-                .min_by_key(|k| sign * group[*k].1)
-                .unwrap_or(0)
-        };
+        let extreme = |sign: i32| (0..group.len()).min_by_key(|k| sign * group[*k].1).unwrap_or(0);
         let mut picks = [0, extreme(1), extreme(-1), group.len() - 1];
         picks.sort_unstable();
         kept.extend(picks.map(|k| group[k]));
@@ -227,10 +183,7 @@ mod tests {
         assert_eq!(axis.ticks, [0.0, 100.0, 200.0, 300.0, 400.0, 500.0]);
         let axis = Axis::exact(-0.03, 1.02, 5);
         assert_eq!(
-            axis.ticks
-                .iter()
-                .map(|t| axis.label(*t))
-                .collect::<Vec<_>>(),
+            axis.ticks.iter().map(|t| axis.label(*t)).collect::<Vec<_>>(),
             ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]
         );
         let flat = Axis::round(3.0, 3.0, 5);

@@ -18,9 +18,7 @@ pub(super) struct Layer {
 
 impl Layer {
     pub(super) fn largest(&self) -> f64 {
-        self.share
-            .iter()
-            .fold(0.0, |largest, v| largest.max(v.abs()))
+        self.share.iter().fold(0.0, |largest, v| largest.max(v.abs()))
     }
 }
 
@@ -38,12 +36,8 @@ pub(super) fn columns(table: &Table) -> Vec<String> {
         "damping_j" => 8,
         _ => 7,
     };
-    let mut names: Vec<String> = table
-        .names()
-        .iter()
-        .filter(|name| name.ends_with("_j") && *name != "residual_j")
-        .cloned()
-        .collect();
+    let mut names: Vec<String> =
+        table.names().iter().filter(|name| name.ends_with("_j") && *name != "residual_j").cloned().collect();
     names.sort_by_key(|name| rank(name));
     names
 }
@@ -68,12 +62,7 @@ pub(super) fn title(column: &str) -> String {
 pub(super) fn paint(layers: &mut [Layer]) {
     let mut earlier: Vec<String> = Vec::new();
     for layer in layers {
-        let kind = layer
-            .column
-            .split('_')
-            .next()
-            .unwrap_or_default()
-            .to_owned();
+        let kind = layer.column.split('_').next().unwrap_or_default().to_owned();
         let base = match kind.as_str() {
             "gravitational" => BLUE,
             "kinetic" => SKY,
@@ -94,20 +83,12 @@ pub(super) fn paint(layers: &mut [Layer]) {
 
 /// Puts the negligible layers together at the end.
 pub(super) fn group(layers: Vec<Layer>) -> Vec<Layer> {
-    let (mut kept, small): (Vec<Layer>, Vec<Layer>) = layers
-        .into_iter()
-        .partition(|layer| layer.largest() >= 100.0 * NEGLIGIBLE);
+    let (mut kept, small): (Vec<Layer>, Vec<Layer>) =
+        layers.into_iter().partition(|layer| layer.largest() >= 100.0 * NEGLIGIBLE);
     if small.iter().any(|layer| layer.largest() > 0.0) {
         let instants = small[0].share.len();
-        let share = (0..instants)
-            .map(|k| small.iter().map(|layer| layer.share[k]).sum())
-            .collect();
-        kept.push(Layer {
-            name: "other".to_owned(),
-            column: String::new(),
-            colour: GREY,
-            share,
-        });
+        let share = (0..instants).map(|k| small.iter().map(|layer| layer.share[k]).sum()).collect();
+        kept.push(Layer { name: "other".to_owned(), column: String::new(), colour: GREY, share });
     }
     kept
 }
@@ -118,11 +99,7 @@ pub(super) fn stack(layers: &[Layer], instants: usize) -> Vec<Vec<(f64, f64)>> {
     let mut below = vec![0.0; instants];
     let mut band = |layer: &Layer| {
         let place = |(k, share): (usize, &f64)| {
-            let pile: &mut f64 = if *share >= 0.0 {
-                &mut above[k]
-            } else {
-                &mut below[k]
-            };
+            let pile: &mut f64 = if *share >= 0.0 { &mut above[k] } else { &mut below[k] };
             let from = *pile;
             *pile += share;
             (from.min(*pile), from.max(*pile))
@@ -137,42 +114,20 @@ mod tests {
     use super::*;
 
     fn layer(column: &str, share: &[f64]) -> Layer {
-        Layer {
-            name: title(column),
-            column: column.to_owned(),
-            colour: GREY,
-            share: share.to_vec(),
-        }
+        Layer { name: title(column), column: column.to_owned(), colour: GREY, share: share.to_vec() }
     }
 
     #[test]
     fn negative_shares_stack_below_zero() {
-        let layers = [
-            layer("kinetic_j", &[60.0]),
-            layer("contact_base_j", &[-2.0]),
-            layer("pic_j", &[40.0]),
-        ];
-        assert_eq!(
-            stack(&layers, 1),
-            [[(0.0, 60.0)], [(-2.0, 0.0)], [(60.0, 100.0)]]
-        );
+        let layers = [layer("kinetic_j", &[60.0]), layer("contact_base_j", &[-2.0]), layer("pic_j", &[40.0])];
+        assert_eq!(stack(&layers, 1), [[(0.0, 60.0)], [(-2.0, 0.0)], [(60.0, 100.0)]]);
     }
 
     #[test]
     fn small_mechanisms_are_drawn_together_and_absent_ones_not_at_all() {
         let absent = || layer("outflow_j", &[0.0, 0.0]);
-        let layers = group(vec![
-            layer("kinetic_j", &[0.0, 5.0]),
-            layer("pic_j", &[0.0, 0.1]),
-            absent(),
-        ]);
-        assert_eq!(
-            layers
-                .iter()
-                .map(|layer| layer.name.as_str())
-                .collect::<Vec<_>>(),
-            ["kinetic", "other"]
-        );
+        let layers = group(vec![layer("kinetic_j", &[0.0, 5.0]), layer("pic_j", &[0.0, 0.1]), absent()]);
+        assert_eq!(layers.iter().map(|layer| layer.name.as_str()).collect::<Vec<_>>(), ["kinetic", "other"]);
         assert_eq!(group(vec![absent()]).len(), 0);
     }
 

@@ -10,8 +10,7 @@ use super::axes::{Axis, Frame, Margins};
 use super::energy_layers::{Layer, columns, group, paint, stack, title};
 use super::labels::spread;
 use super::style::{
-    Canvas, GREY, INK, SMALL_PX, Spot, UNIT, dashes, fill, line, render, stroke, text_width_px,
-    units, write_at,
+    Canvas, GREY, INK, SMALL_PX, Spot, UNIT, dashes, fill, line, render, stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
@@ -36,71 +35,33 @@ pub fn draw(energy_csv: impl AsRef<Path>, out_svg: impl AsRef<Path>) -> Result<(
         whole += table.column(name)?[rows[0]];
     }
     if !(whole.is_finite() && whole > 0.0) {
-        return Err(PlotError::data(
-            table.path(),
-            format!("the energy of the first row is {whole} J, not positive"),
-        ));
+        return Err(PlotError::data(table.path(), format!("the energy of the first row is {whole} J, not positive")));
     }
     let share = |name: &str| -> Result<Vec<f64>, PlotError> {
         let values = pick(table.column(name)?, &rows);
-        Ok(values
-            .iter()
-            .map(|v| {
-                if v.is_finite() {
-                    100.0 * v / whole
-                } else {
-                    0.0
-                }
-            })
-            .collect())
+        Ok(values.iter().map(|v| if v.is_finite() { 100.0 * v / whole } else { 0.0 }).collect())
     };
     let residual = share("residual_j")?;
     let mut layers = Vec::new();
     for name in columns(&table) {
         let share = share(&name)?;
-        layers.push(Layer {
-            name: title(&name),
-            column: name,
-            colour: GREY,
-            share,
-        });
+        layers.push(Layer { name: title(&name), column: name, colour: GREY, share });
     }
     let mut layers = group(layers);
     paint(&mut layers);
     let bands = stack(&layers, time.len());
 
-    let ends = bands
-        .iter()
-        .flatten()
-        .flat_map(|(a, b)| [*a, *b])
-        .chain(residual.iter().copied());
-    let (lo, hi) = ends.fold((0.0, 100.0), |(lo, hi): (f64, f64), v| {
-        (lo.min(v), hi.max(v))
-    });
+    let ends = bands.iter().flatten().flat_map(|(a, b)| [*a, *b]).chain(residual.iter().copied());
+    let (lo, hi) = ends.fold((0.0, 100.0), |(lo, hi): (f64, f64), v| (lo.min(v), hi.max(v)));
     // A strip below zero keeps the residual apart from the axis.
     let y = Axis::exact((1.1 * lo).min(-3.0), hi, 5);
     let x = Axis::exact(time[0], time[time.len() - 1], 7);
     let names: Vec<String> = layers.iter().map(end_label).collect();
-    let right = names
-        .iter()
-        .map(|name| text_width_px(name, SMALL_PX))
-        .fold(0.0, f64::max)
-        .min(280.0)
-        + 34.0;
-    let margins = Margins {
-        left: 62.0,
-        right,
-        top: 40.0,
-        bottom: 46.0,
-    };
+    let right = names.iter().map(|name| text_width_px(name, SMALL_PX)).fold(0.0, f64::max).min(280.0) + 34.0;
+    let margins = Margins { left: 62.0, right, top: 40.0, bottom: 46.0 };
 
     render(out_svg.as_ref(), HEIGHT_PX, |canvas| {
-        let frame = Frame::draw(
-            canvas,
-            &margins,
-            (&x, "time (s)"),
-            (&y, "share of the initial energy (%)"),
-        )?;
+        let frame = Frame::draw(canvas, &margins, (&x, "time (s)"), (&y, "share of the initial energy (%)"))?;
         let (left, right, top, bottom) = frame.bounds();
         for (layer, band) in layers.iter().zip(&bands) {
             area(canvas, &frame, &time, band, layer.colour)?;
@@ -115,60 +76,28 @@ pub fn draw(energy_csv: impl AsRef<Path>, out_svg: impl AsRef<Path>) -> Result<(
             match inside(&frame, &time, band, &layer.name) {
                 // A share that is spent by the end has no height to point at.
                 Some(at) if layer.share[layer.share.len() - 1].abs() < 0.5 => {
-                    write_at(
-                        canvas,
-                        &layer.name,
-                        at,
-                        SMALL_PX,
-                        ink_on(layer.colour),
-                        HPos::Center,
-                    )?;
+                    write_at(canvas, &layer.name, at, SMALL_PX, ink_on(layer.colour), HPos::Center)?;
                 }
                 _ => outside.push((k, spot)),
             }
         }
         let wanted: Vec<f64> = outside.iter().map(|(_, spot)| f64::from(spot.1)).collect();
-        let placed = spread(
-            &wanted,
-            f64::from(units(19.0)),
-            f64::from(top + units(6.0)),
-            f64::from(bottom - units(6.0)),
-        );
+        let placed =
+            spread(&wanted, f64::from(units(19.0)), f64::from(top + units(6.0)), f64::from(bottom - units(6.0)));
         for ((k, spot), at) in outside.iter().zip(placed) {
             let at = (right + units(12.0), at.round() as i32);
             stroke(canvas, vec![*spot, at], line(GREY, 0.8))?;
             let swatch = [(0.0, -5.0), (10.0, -5.0), (10.0, 5.0), (0.0, 5.0)];
             let corners = swatch.map(|(dx, dy)| (at.0 + units(dx), at.1 + units(dy)));
             fill(canvas, corners.to_vec(), &layers[*k].colour)?;
-            write_at(
-                canvas,
-                &names[*k],
-                (at.0 + units(15.0), at.1),
-                SMALL_PX,
-                INK,
-                HPos::Left,
-            )?;
+            write_at(canvas, &names[*k], (at.0 + units(15.0), at.1), SMALL_PX, INK, HPos::Left)?;
         }
 
-        let largest = residual.iter().fold(
-            0.0,
-            |largest: f64, v| if v.abs() > largest.abs() { *v } else { largest },
-        );
+        let largest = residual.iter().fold(0.0, |largest: f64, v| if v.abs() > largest.abs() { *v } else { largest });
         let key = (left, top - units(18.0));
-        stroke(
-            canvas,
-            vec![key, (key.0 + units(24.0), key.1)],
-            line(INK, 1.6),
-        )?;
+        stroke(canvas, vec![key, (key.0 + units(24.0), key.1)], line(INK, 1.6))?;
         let text = format!("residual of the balance (largest {} %)", signed(largest));
-        write_at(
-            canvas,
-            &text,
-            (key.0 + units(30.0), key.1),
-            SMALL_PX,
-            INK,
-            HPos::Left,
-        )?;
+        write_at(canvas, &text, (key.0 + units(30.0), key.1), SMALL_PX, INK, HPos::Left)?;
         let text = format!("100 % = {whole:.1} J");
         write_at(canvas, &text, (right, key.1), SMALL_PX, GREY, HPos::Right)
     })
@@ -181,9 +110,7 @@ fn instants(table: &Table) -> Result<Vec<usize>, PlotError> {
     match rows.len() {
         0 => Err(PlotError::data(table.path(), "no row has a time")),
         count if count <= INSTANTS => Ok(rows),
-        count => Ok((0..INSTANTS)
-            .map(|k| rows[k * (count - 1) / (INSTANTS - 1)])
-            .collect()),
+        count => Ok((0..INSTANTS).map(|k| rows[k * (count - 1) / (INSTANTS - 1)]).collect()),
     }
 }
 
@@ -199,16 +126,8 @@ fn area(
     band: &[(f64, f64)],
     colour: RGBColor,
 ) -> Result<(), PlotError> {
-    let upper: Vec<Spot> = time
-        .iter()
-        .zip(band)
-        .map(|(t, (_, to))| frame.spot(*t, *to))
-        .collect();
-    let lower = time
-        .iter()
-        .zip(band)
-        .rev()
-        .map(|(t, (from, _))| frame.spot(*t, *from));
+    let upper: Vec<Spot> = time.iter().zip(band).map(|(t, (_, to))| frame.spot(*t, *to)).collect();
+    let lower = time.iter().zip(band).rev().map(|(t, (from, _))| frame.spot(*t, *from));
     let outline = upper.iter().copied().chain(lower).collect();
     fill(canvas, outline, &colour)?;
     stroke(canvas, upper, line(WHITE, 0.6))
@@ -227,14 +146,9 @@ fn inside(frame: &Frame<'_>, time: &[f64], band: &[(f64, f64)], name: &str) -> O
     let mut best: Option<(i32, Spot)> = None;
     for x in (left + half..=right - half).step_by(4 * UNIT as usize) {
         let under = edges.iter().filter(|edge| (edge.0 - x).abs() <= half);
-        let (top, bottom) = under.fold((i32::MIN, i32::MAX), |(t, b), edge| {
-            (t.max(edge.1), b.min(edge.2))
-        });
+        let (top, bottom) = under.fold((i32::MIN, i32::MAX), |(t, b), edge| (t.max(edge.1), b.min(edge.2)));
         let room = bottom.saturating_sub(top);
-        if top > i32::MIN
-            && room >= units(SMALL_PX + 4.0)
-            && best.is_none_or(|(most, _)| room > most)
-        {
+        if top > i32::MIN && room >= units(SMALL_PX + 4.0) && best.is_none_or(|(most, _)| room > most) {
             best = Some((room, (x, top + room / 2)));
         }
     }
@@ -243,8 +157,7 @@ fn inside(frame: &Frame<'_>, time: &[f64], band: &[(f64, f64)], name: &str) -> O
 
 /// White or dark, whichever reads better on `colour`.
 fn ink_on(colour: RGBColor) -> RGBColor {
-    let light =
-        0.299 * f64::from(colour.0) + 0.587 * f64::from(colour.1) + 0.114 * f64::from(colour.2);
+    let light = 0.299 * f64::from(colour.0) + 0.587 * f64::from(colour.1) + 0.114 * f64::from(colour.2);
     if light < 120.0 { WHITE } else { INK }
 }
 

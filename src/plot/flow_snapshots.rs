@@ -8,8 +8,8 @@ use plotters::style::text_anchor::HPos;
 use super::axes::Axis;
 use super::panels::{Extent, FOOT_PX, Layout, MARGIN_PX, Point, TITLE_PX, Turn};
 use super::style::{
-    Canvas, GREY, INK, SMALL_PX, Spot, TEXT_PX, UNIT, WALL, WIDTH_PX, fill, line, render, stroke,
-    units, viridis, write_at,
+    Canvas, GREY, INK, SMALL_PX, Spot, TEXT_PX, UNIT, WALL, WIDTH_PX, fill, line, render, stroke, units, viridis,
+    write_at,
 };
 use super::{PlotError, by_time, time_decimals};
 use crate::output::Table;
@@ -54,22 +54,13 @@ pub fn draw(
     }
     panels.retain(|(_, rows)| !rows.is_empty());
     if panels.is_empty() {
-        return Err(PlotError::data(
-            field.path(),
-            "no row has a time, a position and a speed",
-        ));
+        return Err(PlotError::data(field.path(), "no row has a time, a position and a speed"));
     }
-    let shown: Vec<usize> = panels
-        .iter()
-        .flat_map(|(_, rows)| rows.iter().copied())
-        .collect();
+    let shown: Vec<usize> = panels.iter().flat_map(|(_, rows)| rows.iter().copied()).collect();
     let outlines = outlines(&Table::load(geometry_csv)?)?;
 
     let turn = Turn::new(inclination_deg);
-    let corners = shown
-        .iter()
-        .map(|k| [x[*k], y[*k]])
-        .chain(outlines.iter().flatten().copied());
+    let corners = shown.iter().map(|k| [x[*k], y[*k]]).chain(outlines.iter().flatten().copied());
     let extent = Extent::around(corners.map(|point| turn.apply(point)));
     let cell = spacing(shown.iter().map(|k| x[*k]))
         .or_else(|| spacing(shown.iter().map(|k| y[*k])))
@@ -84,44 +75,27 @@ pub fn draw(
     let lap = 0.7 / (layout.px_per_m * cell);
     let decimals = time_decimals(panels.iter().map(|(time, _)| *time));
 
-    render(
-        out_svg.as_ref(),
-        layout.height_px.round() as i32,
-        |canvas| {
-            for (k, (time, rows)) in panels.iter().enumerate() {
-                let origin = layout.origin(k);
-                let spot = |point: Point| layout.spot(origin, &extent, turn.apply(point));
-                let cells = rows.iter().map(|k| {
-                    let count = |v: f64, from: f64| ((v - from) / cell).round() as i64;
-                    let level = (speed[*k] / scale.hi * LEVELS as f64) as usize;
-                    (
-                        count(y[*k], base[1]),
-                        count(x[*k], base[0]),
-                        level.min(LEVELS - 1),
-                    )
-                });
-                for run in runs(cells.collect()) {
-                    let quad = run
-                        .corners(lap)
-                        .map(|[i, j]| spot([base[0] + i * cell, base[1] + j * cell]));
-                    fill(canvas, quad.to_vec(), &colour(run.level))?;
-                }
-                for outline in &outlines {
-                    wall(canvas, outline.iter().map(|point| spot(*point)).collect())?;
-                }
-                let at = (units(origin.0), units(origin.1 - 0.5 * TITLE_PX));
-                write_at(
-                    canvas,
-                    &format!("t = {time:.decimals$} s"),
-                    at,
-                    TEXT_PX,
-                    INK,
-                    HPos::Left,
-                )?;
+    render(out_svg.as_ref(), layout.height_px.round() as i32, |canvas| {
+        for (k, (time, rows)) in panels.iter().enumerate() {
+            let origin = layout.origin(k);
+            let spot = |point: Point| layout.spot(origin, &extent, turn.apply(point));
+            let cells = rows.iter().map(|k| {
+                let count = |v: f64, from: f64| ((v - from) / cell).round() as i64;
+                let level = (speed[*k] / scale.hi * LEVELS as f64) as usize;
+                (count(y[*k], base[1]), count(x[*k], base[0]), level.min(LEVELS - 1))
+            });
+            for run in runs(cells.collect()) {
+                let quad = run.corners(lap).map(|[i, j]| spot([base[0] + i * cell, base[1] + j * cell]));
+                fill(canvas, quad.to_vec(), &colour(run.level))?;
             }
-            foot(canvas, &layout, &scale)
-        },
-    )
+            for outline in &outlines {
+                wall(canvas, outline.iter().map(|point| spot(*point)).collect())?;
+            }
+            let at = (units(origin.0), units(origin.1 - 0.5 * TITLE_PX));
+            write_at(canvas, &format!("t = {time:.decimals$} s"), at, TEXT_PX, INK, HPos::Left)?;
+        }
+        foot(canvas, &layout, &scale)
+    })
 }
 
 impl Run {
@@ -150,18 +124,10 @@ fn colour(level: usize) -> RGBColor {
 
 /// Outlines of the boundaries in the order of the table.
 fn outlines(table: &Table) -> Result<Vec<Vec<Point>>, PlotError> {
-    let (boundary, x, y) = (
-        table.column("boundary")?,
-        table.column("x_m")?,
-        table.column("y_m")?,
-    );
-    let rows: Vec<usize> = (0..table.rows())
-        .filter(|k| x[*k].is_finite() && y[*k].is_finite())
-        .collect();
+    let (boundary, x, y) = (table.column("boundary")?, table.column("x_m")?, table.column("y_m")?);
+    let rows: Vec<usize> = (0..table.rows()).filter(|k| x[*k].is_finite() && y[*k].is_finite()).collect();
     let groups = rows.chunk_by(|a, b| boundary[*a] == boundary[*b]);
-    Ok(groups
-        .map(|rows| rows.iter().map(|k| [x[*k], y[*k]]).collect())
-        .collect())
+    Ok(groups.map(|rows| rows.iter().map(|k| [x[*k], y[*k]]).collect()).collect())
 }
 
 /// Smallest distance between different values; `None` if there are no two.
@@ -179,15 +145,8 @@ fn runs(mut cells: Vec<(i64, i64, usize)>) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for (row, column, level) in cells {
         match runs.last_mut() {
-            Some(run) if run.row == row && run.level == level && run.last + 1 == column => {
-                run.last = column
-            }
-            _ => runs.push(Run {
-                row,
-                first: column,
-                last: column,
-                level,
-            }),
+            Some(run) if run.row == row && run.level == level && run.last + 1 == column => run.last = column,
+            _ => runs.push(Run { row, first: column, last: column, level }),
         }
     }
     runs
@@ -199,54 +158,20 @@ fn foot(canvas: &Canvas<'_>, layout: &Layout, scale: &Axis) -> Result<(), PlotEr
     // A round length of at most a fifth of the figure.
     let longest = 0.2 * f64::from(WIDTH_PX) / layout.px_per_m;
     let power = 10f64.powf(longest.log10().floor());
-    let length = power
-        * [5.0, 2.0, 1.0]
-            .into_iter()
-            .find(|f| f * power <= longest)
-            .unwrap_or(1.0);
+    let length = power * [5.0, 2.0, 1.0].into_iter().find(|f| f * power <= longest).unwrap_or(1.0);
     let (x, y) = (units(MARGIN_PX + 4.0), units(top + 36.0));
     let end = x + units(length * layout.px_per_m);
     stroke(canvas, vec![(x, y), (end, y)], line(INK, 1.6))?;
     for x in [x, end] {
-        stroke(
-            canvas,
-            vec![(x, y - units(4.0)), (x, y + units(4.0))],
-            line(INK, 1.6),
-        )?;
+        stroke(canvas, vec![(x, y - units(4.0)), (x, y + units(4.0))], line(INK, 1.6))?;
     }
     let decimals = (-length.log10().floor()).max(0.0) as usize;
-    write_at(
-        canvas,
-        &format!("{length:.decimals$} m"),
-        ((x + end) / 2, y + units(16.0)),
-        SMALL_PX,
-        INK,
-        HPos::Center,
-    )?;
+    write_at(canvas, &format!("{length:.decimals$} m"), ((x + end) / 2, y + units(16.0)), SMALL_PX, INK, HPos::Center)?;
 
     let (x, from, to) = (end + units(44.0), units(top + 20.0), units(top + 52.0));
-    stroke(
-        canvas,
-        vec![(x, from), (x, to - units(4.0))],
-        line(GREY, 1.6),
-    )?;
-    fill(
-        canvas,
-        vec![
-            (x - units(4.0), to - units(8.0)),
-            (x + units(4.0), to - units(8.0)),
-            (x, to),
-        ],
-        &GREY,
-    )?;
-    write_at(
-        canvas,
-        "gravity",
-        (x + units(10.0), (from + to) / 2),
-        SMALL_PX,
-        GREY,
-        HPos::Left,
-    )?;
+    stroke(canvas, vec![(x, from), (x, to - units(4.0))], line(GREY, 1.6))?;
+    fill(canvas, vec![(x - units(4.0), to - units(8.0)), (x + units(4.0), to - units(8.0)), (x, to)], &GREY)?;
+    write_at(canvas, "gravity", (x + units(10.0), (from + to) / 2), SMALL_PX, GREY, HPos::Left)?;
 
     let (left, width) = (f64::from(WIDTH_PX) - MARGIN_PX - 340.0, 320.0);
     let (from, to) = (units(top + 26.0), units(top + 42.0));
@@ -254,30 +179,12 @@ fn foot(canvas: &Canvas<'_>, layout: &Layout, scale: &Axis) -> Result<(), PlotEr
         let edge = |k: usize| units(left + width * k as f64 / LEVELS as f64);
         let lap = if level + 1 < LEVELS { UNIT } else { 0 };
         let (x, end) = (edge(level), edge(level + 1) + lap);
-        fill(
-            canvas,
-            vec![(x, from), (end, from), (end, to), (x, to)],
-            &colour(level),
-        )?;
+        fill(canvas, vec![(x, from), (end, from), (end, to), (x, to)], &colour(level))?;
     }
     for tick in &scale.ticks {
         let x = units(left + width * tick / scale.hi);
         stroke(canvas, vec![(x, to), (x, to + units(4.0))], line(INK, 1.0))?;
-        write_at(
-            canvas,
-            &scale.label(*tick),
-            (x, to + units(14.0)),
-            SMALL_PX,
-            INK,
-            HPos::Center,
-        )?;
+        write_at(canvas, &scale.label(*tick), (x, to + units(14.0)), SMALL_PX, INK, HPos::Center)?;
     }
-    write_at(
-        canvas,
-        "speed (m/s)",
-        (units(left), units(top + 13.0)),
-        SMALL_PX,
-        INK,
-        HPos::Left,
-    )
+    write_at(canvas, "speed (m/s)", (units(left), units(top + 13.0)), SMALL_PX, INK, HPos::Left)
 }

@@ -9,8 +9,8 @@ use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
 use super::labels::spread;
 use super::style::{
-    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SMALL_PX, Spot, TEXT_PX, UNIT, VERMILION,
-    dashes, drawing, fill, line, render, stroke, text_width_px, units, write_at,
+    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SMALL_PX, Spot, TEXT_PX, UNIT, VERMILION, dashes, drawing, fill,
+    line, render, stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
@@ -48,44 +48,20 @@ pub fn draw(
     let layers = table.column("force_layer2_n")?;
     let step_max = table.column("force_normal_max_n")?;
     if let Some(line) = lines.iter().find(|line| !line.value_n.is_finite()) {
-        return Err(PlotError::Argument(format!(
-            "the reference force {:?} is not a finite number",
-            line.label
-        )));
+        return Err(PlotError::Argument(format!("the reference force {:?} is not a finite number", line.label)));
     }
     let peak = (0..table.rows())
         .filter(|k| time[*k].is_finite() && force[*k].is_finite())
         .reduce(|best, k| if force[k] > force[best] { k } else { best })
-        .ok_or_else(|| {
-            PlotError::data(table.path(), "no row has both a time and a normal force")
-        })?;
-    let largest_step = step_max
-        .iter()
-        .copied()
-        .filter(|v| v.is_finite())
-        .reduce(f64::max);
+        .ok_or_else(|| PlotError::data(table.path(), "no row has both a time and a normal force"))?;
+    let largest_step = step_max.iter().copied().filter(|v| v.is_finite()).reduce(f64::max);
 
-    let finite = |values: &[f64]| {
-        values
-            .iter()
-            .copied()
-            .filter(|v| v.is_finite())
-            .collect::<Vec<_>>()
-    };
+    let finite = |values: &[f64]| values.iter().copied().filter(|v| v.is_finite()).collect::<Vec<_>>();
     let times = finite(time);
-    let values: Vec<f64> = finite(force)
-        .into_iter()
-        .chain(finite(layers))
-        .chain(lines.iter().map(|line| line.value_n))
-        .collect();
-    let (lo, hi) = values.iter().fold((0.0, 0.0), |(lo, hi): (f64, f64), v| {
-        (lo.min(*v), hi.max(*v))
-    });
-    let (scale, unit) = if hi.max(-lo) >= 20e3 {
-        (1e-3, "kN")
-    } else {
-        (1.0, "N")
-    };
+    let values: Vec<f64> =
+        finite(force).into_iter().chain(finite(layers)).chain(lines.iter().map(|line| line.value_n)).collect();
+    let (lo, hi) = values.iter().fold((0.0, 0.0), |(lo, hi): (f64, f64), v| (lo.min(*v), hi.max(*v)));
+    let (scale, unit) = if hi.max(-lo) >= 20e3 { (1e-3, "kN") } else { (1.0, "N") };
     let scaled = |values: &[f64]| values.iter().map(|v| v * scale).collect::<Vec<_>>();
     // The text at the peak stands above it.
     let y = Axis::round(lo * scale, (hi + 0.08 * (hi - lo)) * scale, 6);
@@ -103,96 +79,43 @@ pub fn draw(
             text
         })
         .collect();
-    let widest = names
-        .iter()
-        .flatten()
-        .map(|text| text_width_px(text, SMALL_PX))
-        .fold(0.0, f64::max);
-    let right = if names.is_empty() {
-        24.0
-    } else {
-        widest.min(260.0) + 22.0
-    };
-    let margins = Margins {
-        left: 68.0,
-        right,
-        top: 44.0,
-        bottom: 46.0,
-    };
+    let widest = names.iter().flatten().map(|text| text_width_px(text, SMALL_PX)).fold(0.0, f64::max);
+    let right = if names.is_empty() { 24.0 } else { widest.min(260.0) + 22.0 };
+    let margins = Margins { left: 68.0, right, top: 44.0, bottom: 46.0 };
 
     render(out_svg.as_ref(), HEIGHT_PX, |canvas| {
-        let frame = Frame::draw(
-            canvas,
-            &margins,
-            (&x, "time (s)"),
-            (&y, &format!("normal force ({unit})")),
-        )?;
+        let frame = Frame::draw(canvas, &margins, (&x, "time (s)"), (&y, &format!("normal force ({unit})")))?;
         let (left, right, top, bottom) = frame.bounds();
-        let heights: Vec<i32> = lines
-            .iter()
-            .map(|line| frame.spot(x.lo, line.value_n * scale).1)
-            .collect();
+        let heights: Vec<i32> = lines.iter().map(|line| frame.spot(x.lo, line.value_n * scale).1).collect();
         frame.series(canvas, time, &scaled(force), line(BLUE, 2.2))?;
         // Seen through, so that neither hides the other where they agree.
-        let thin = ShapeStyle {
-            color: ORANGE.mix(0.75),
-            ..line(ORANGE, 0.9)
-        };
+        let thin = ShapeStyle { color: ORANGE.mix(0.75), ..line(ORANGE, 0.9) };
         frame.series(canvas, time, &scaled(layers), thin)?;
         for (k, height) in heights.iter().enumerate() {
-            dashes(
-                canvas,
-                (left, *height),
-                right,
-                REFERENCES[k % REFERENCES.len()],
-                1.3,
-            )?;
+            dashes(canvas, (left, *height), right, REFERENCES[k % REFERENCES.len()], 1.3)?;
         }
 
         let pitch = SMALL_PX + 3.0;
         let tallest = names.iter().map(Vec::len).max().unwrap_or(0) as f64;
         let wanted: Vec<f64> = heights.iter().map(|h| f64::from(*h)).collect();
-        let (from, to) = (
-            f64::from(top + units(pitch)),
-            f64::from(bottom - units(pitch)),
-        );
+        let (from, to) = (f64::from(top + units(pitch)), f64::from(bottom - units(pitch)));
         let placed = spread(&wanted, f64::from(units(tallest * pitch + 7.0)), from, to);
         for (k, name) in names.iter().enumerate() {
             let (at, colour) = (placed[k].round() as i32, REFERENCES[k % REFERENCES.len()]);
-            stroke(
-                canvas,
-                vec![(right, heights[k]), (right + units(10.0), at)],
-                line(colour, 1.0),
-            )?;
+            stroke(canvas, vec![(right, heights[k]), (right + units(10.0), at)], line(colour, 1.0))?;
             for (row, text) in name.iter().enumerate() {
                 let y = at + units((row as f64 - 0.5 * (name.len() - 1) as f64) * pitch);
                 let ink = if row + 1 < name.len() { INK } else { GREY };
-                write_at(
-                    canvas,
-                    text,
-                    (right + units(14.0), y),
-                    SMALL_PX,
-                    ink,
-                    HPos::Left,
-                )?;
+                write_at(canvas, text, (right + units(14.0), y), SMALL_PX, ink, HPos::Left)?;
             }
         }
 
-        let keys = [
-            ("force from the grid's impulse", BLUE, 2.2),
-            ("force from stress, two layers of cells", ORANGE, 1.2),
-        ];
+        let keys =
+            [("force from the grid's impulse", BLUE, 2.2), ("force from stress, two layers of cells", ORANGE, 1.2)];
         legend(canvas, (left, top - units(20.0)), &keys)?;
-        let mut text = format!(
-            "peak {} {unit} at {:.3} s",
-            short(force[peak] * scale),
-            time[peak]
-        );
+        let mut text = format!("peak {} {unit} at {:.3} s", short(force[peak] * scale), time[peak]);
         if let Some(largest) = largest_step {
-            text.push_str(&format!(
-                " (single step: {} {unit})",
-                short(largest * scale)
-            ));
+            text.push_str(&format!(" (single step: {} {unit})", short(largest * scale)));
         }
         let spot = frame.spot(time[peak], force[peak] * scale);
         mark_peak(canvas, spot, &text, &heights, (left, right, top))
@@ -227,11 +150,7 @@ fn short(value: f64) -> String {
 fn legend(canvas: &Canvas<'_>, at: Spot, keys: &[(&str, RGBColor, f64)]) -> Result<(), PlotError> {
     let (mut x, y) = at;
     for (name, colour, px) in keys {
-        stroke(
-            canvas,
-            vec![(x, y), (x + units(24.0), y)],
-            line(*colour, *px),
-        )?;
+        stroke(canvas, vec![(x, y), (x + units(24.0), y)], line(*colour, *px))?;
         write_at(canvas, name, (x + units(30.0), y), TEXT_PX, INK, HPos::Left)?;
         x += units(30.0 + text_width_px(name, TEXT_PX) + 12.0);
     }
@@ -246,38 +165,19 @@ fn mark_peak(
     heights: &[i32],
     (left, right, top): (i32, i32, i32),
 ) -> Result<(), PlotError> {
-    let marker = ShapeStyle {
-        color: INK.to_rgba(),
-        filled: true,
-        stroke_width: 0,
-    };
-    canvas
-        .draw(&Circle::new(peak, units(3.2), marker))
-        .map_err(drawing)?;
+    let marker = ShapeStyle { color: INK.to_rgba(), filled: true, stroke_width: 0 };
+    canvas.draw(&Circle::new(peak, units(3.2), marker)).map_err(drawing)?;
     let half = units(SMALL_PX * 0.7);
     let clear = |y: i32| heights.iter().all(|height| (height - y).abs() > half);
     let above = peak.1 - units(16.0);
-    let y = (top + half..=above)
-        .rev()
-        .step_by(UNIT as usize)
-        .find(|y| clear(*y))
-        .unwrap_or(above);
+    let y = (top + half..=above).rev().step_by(UNIT as usize).find(|y| clear(*y)).unwrap_or(above);
     let width = units(text_width_px(text, SMALL_PX));
     let x = (peak.0 - width / 2).clamp(left + units(6.0), (right - width).max(left + units(6.0)));
     if y < peak.1 - units(20.0) {
-        stroke(
-            canvas,
-            vec![(peak.0, peak.1 - units(4.0)), (peak.0, y + half)],
-            line(GREY, 0.8),
-        )?;
+        stroke(canvas, vec![(peak.0, peak.1 - units(4.0)), (peak.0, y + half)], line(GREY, 0.8))?;
     }
     let (pad, end) = (units(3.0), x + width);
-    let backdrop = [
-        (x - pad, y - half),
-        (end, y - half),
-        (end, y + half),
-        (x - pad, y + half),
-    ];
+    let backdrop = [(x - pad, y - half), (end, y - half), (end, y + half), (x - pad, y + half)];
     fill(canvas, backdrop.to_vec(), &WHITE.mix(0.85))?;
     write_at(canvas, text, (x, y), SMALL_PX, INK, HPos::Left)
 }

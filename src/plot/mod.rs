@@ -43,10 +43,7 @@ pub enum PlotError {
 impl PlotError {
     /// A table that does not hold what the figure shows.
     fn data(path: &Path, reason: impl Into<String>) -> Self {
-        Self::Data {
-            path: path.to_path_buf(),
-            reason: reason.into(),
-        }
+        Self::Data { path: path.to_path_buf(), reason: reason.into() }
     }
 }
 
@@ -56,18 +53,14 @@ fn by_time(table: &Table) -> Result<Vec<(f64, Vec<usize>)>, PlotError> {
     let mut rows: Vec<usize> = (0..table.rows()).filter(|k| time[*k].is_finite()).collect();
     rows.sort_by(|a, b| time[*a].total_cmp(&time[*b]));
     let groups = rows.chunk_by(|a, b| time[*a] == time[*b]);
-    Ok(groups
-        .map(|group| (time[group[0]], group.to_vec()))
-        .collect())
+    Ok(groups.map(|group| (time[group[0]], group.to_vec())).collect())
 }
 
 /// Decimals, at most 3, that tell all these times apart from their rounded selves.
 fn time_decimals(times: impl Iterator<Item = f64> + Clone) -> usize {
     let exact = |decimals: &usize| {
         let scale = 10f64.powi(*decimals as i32);
-        times
-            .clone()
-            .all(|t| ((t * scale).round() / scale - t).abs() < 2e-4)
+        times.clone().all(|t| ((t * scale).round() / scale - t).abs() < 2e-4)
     };
     (1..3).find(exact).unwrap_or(3)
 }

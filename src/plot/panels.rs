@@ -44,22 +44,12 @@ impl Extent {
                 high[c] = high[c].max(point[c]);
             }
         }
-        Self {
-            left: low[0],
-            top: high[1],
-            width: high[0] - low[0],
-            height: high[1] - low[1],
-        }
+        Self { left: low[0], top: high[1], width: high[0] - low[0], height: high[1] - low[1] }
     }
 
     pub(super) fn grown(self, by: f64) -> Self {
         let (width, height) = (self.width + 2.0 * by, self.height + 2.0 * by);
-        Self {
-            left: self.left - by,
-            top: self.top + by,
-            width,
-            height,
-        }
+        Self { left: self.left - by, top: self.top + by, width, height }
     }
 }
 
@@ -81,37 +71,22 @@ impl Layout {
             let px_per_m = (width / extent.width).min(1.4 * width / extent.height);
             let height = px_per_m * extent.height;
             let rows = panels.div_ceil(columns) as f64;
-            let height_px =
-                MARGIN_PX + rows * (TITLE_PX + height) + (rows - 1.0) * GAP_PX + FOOT_PX;
-            Self {
-                columns,
-                panel_px: (width, height),
-                px_per_m,
-                height_px,
-            }
+            let height_px = MARGIN_PX + rows * (TITLE_PX + height) + (rows - 1.0) * GAP_PX + FOOT_PX;
+            Self { columns, panel_px: (width, height), px_per_m, height_px }
         };
         let page = 1.3 * f64::from(WIDTH_PX);
-        (2..4)
-            .map(fit)
-            .find(|layout| layout.height_px <= page)
-            .unwrap_or_else(|| fit(4))
+        (2..4).map(fit).find(|layout| layout.height_px <= page).unwrap_or_else(|| fit(4))
     }
 
     /// Upper left corner of a panel, below its title (px).
     pub(super) fn origin(&self, panel: usize) -> (f64, f64) {
         let (row, column) = ((panel / self.columns) as f64, (panel % self.columns) as f64);
         let (width, height) = self.panel_px;
-        (
-            MARGIN_PX + column * (width + GAP_PX),
-            MARGIN_PX + TITLE_PX + row * (height + TITLE_PX + GAP_PX),
-        )
+        (MARGIN_PX + column * (width + GAP_PX), MARGIN_PX + TITLE_PX + row * (height + TITLE_PX + GAP_PX))
     }
 
     pub(super) fn spot(&self, origin: (f64, f64), extent: &Extent, [x, y]: Point) -> Spot {
-        (
-            units(origin.0 + (x - extent.left) * self.px_per_m),
-            units(origin.1 + (extent.top - y) * self.px_per_m),
-        )
+        (units(origin.0 + (x - extent.left) * self.px_per_m), units(origin.1 + (extent.top - y) * self.px_per_m))
     }
 }
 

@@ -51,8 +51,7 @@ pub(super) fn render(
     let (width, height) = (WIDTH_PX * UNIT, height_px * UNIT);
     let mut svg = String::new();
     {
-        let canvas =
-            SVGBackend::with_string(&mut svg, (width as u32, height as u32)).into_drawing_area();
+        let canvas = SVGBackend::with_string(&mut svg, (width as u32, height as u32)).into_drawing_area();
         canvas.fill(&WHITE).map_err(drawing)?;
         draw(&canvas)?;
         canvas.present().map_err(drawing)?;
@@ -76,19 +75,12 @@ pub(super) fn units(px: f64) -> i32 {
 
 /// A line `px` wide.
 pub(super) fn line(colour: RGBColor, px: f64) -> ShapeStyle {
-    ShapeStyle {
-        color: colour.to_rgba(),
-        filled: false,
-        stroke_width: units(px).max(1) as u32,
-    }
+    ShapeStyle { color: colour.to_rgba(), filled: false, stroke_width: units(px).max(1) as u32 }
 }
 
 /// Text `px` high, placed by `h` and `v`. The library writes fonts 1.24 times smaller than it is told.
 pub(super) fn text_style(px: f64, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
-    ("sans-serif", px * 1.24 * f64::from(UNIT))
-        .into_font()
-        .color(&colour)
-        .pos(Pos::new(h, v))
+    ("sans-serif", px * 1.24 * f64::from(UNIT)).into_font().color(&colour).pos(Pos::new(h, v))
 }
 
 /// Width of a text (px), on the generous side, for the fonts that stand in for `sans-serif`.
@@ -112,45 +104,21 @@ pub(super) fn write_at(
     colour: RGBColor,
     h: HPos,
 ) -> Result<(), PlotError> {
-    canvas
-        .draw(&Text::new(
-            text.to_owned(),
-            at,
-            text_style(px, colour, h, VPos::Center),
-        ))
-        .map_err(drawing)
+    canvas.draw(&Text::new(text.to_owned(), at, text_style(px, colour, h, VPos::Center))).map_err(drawing)
 }
 
 /// Draws a line through spots.
-pub(super) fn stroke(
-    canvas: &Canvas<'_>,
-    spots: Vec<Spot>,
-    style: ShapeStyle,
-) -> Result<(), PlotError> {
-    canvas
-        .draw(&PathElement::new(spots, style))
-        .map_err(drawing)
+pub(super) fn stroke(canvas: &Canvas<'_>, spots: Vec<Spot>, style: ShapeStyle) -> Result<(), PlotError> {
+    canvas.draw(&PathElement::new(spots, style)).map_err(drawing)
 }
 
 /// Fills a polygon.
-pub(super) fn fill(
-    canvas: &Canvas<'_>,
-    spots: Vec<Spot>,
-    colour: &impl Color,
-) -> Result<(), PlotError> {
-    canvas
-        .draw(&Polygon::new(spots, colour.to_rgba().filled()))
-        .map_err(drawing)
+pub(super) fn fill(canvas: &Canvas<'_>, spots: Vec<Spot>, colour: &impl Color) -> Result<(), PlotError> {
+    canvas.draw(&Polygon::new(spots, colour.to_rgba().filled())).map_err(drawing)
 }
 
 /// A horizontal dashed line, `px` wide.
-pub(super) fn dashes(
-    canvas: &Canvas<'_>,
-    from: Spot,
-    to: i32,
-    colour: RGBColor,
-    px: f64,
-) -> Result<(), PlotError> {
+pub(super) fn dashes(canvas: &Canvas<'_>, from: Spot, to: i32, colour: RGBColor, px: f64) -> Result<(), PlotError> {
     let (mut x, y) = from;
     while x < to {
         let end = (x + 7 * UNIT).min(to);
@@ -177,9 +145,7 @@ const VIRIDIS: [[f64; 3]; 9] = [
 pub(super) fn viridis(share: f64) -> RGBColor {
     let at = share.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
     let k = (at as usize).min(VIRIDIS.len() - 2);
-    let blend = |c: usize| {
-        (VIRIDIS[k][c] + (VIRIDIS[k + 1][c] - VIRIDIS[k][c]) * (at - k as f64)).round() as u8
-    };
+    let blend = |c: usize| (VIRIDIS[k][c] + (VIRIDIS[k + 1][c] - VIRIDIS[k][c]) * (at - k as f64)).round() as u8;
     RGBColor(blend(0), blend(1), blend(2))
 }
 

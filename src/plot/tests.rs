@@ -14,18 +14,10 @@ struct Bench {
 impl Bench {
     fn new() -> Self {
         let keep = std::env::var_os("CHECKDAM_FIGURES").map(PathBuf::from);
-        Self {
-            directory: tempfile::tempdir().unwrap(),
-            keep,
-        }
+        Self { directory: tempfile::tempdir().unwrap(), keep }
     }
 
-    fn table(
-        &self,
-        name: &str,
-        columns: &[&str],
-        rows: impl IntoIterator<Item = Vec<f64>>,
-    ) -> PathBuf {
+    fn table(&self, name: &str, columns: &[&str], rows: impl IntoIterator<Item = Vec<f64>>) -> PathBuf {
         let path = self.directory.path().join(name);
         let mut writer = TableWriter::create(&path, columns).unwrap();
         rows.into_iter().for_each(|row| writer.row(&row).unwrap());
@@ -34,33 +26,16 @@ impl Bench {
     }
 
     /// Draws twice and checks what every figure promises.
-    fn check(
-        &self,
-        name: &str,
-        limit: usize,
-        draw: impl Fn(&Path) -> Result<(), PlotError>,
-    ) -> String {
+    fn check(&self, name: &str, limit: usize, draw: impl Fn(&Path) -> Result<(), PlotError>) -> String {
         let path = self.directory.path().join(name);
         draw(&path).unwrap();
         let svg = std::fs::read_to_string(&path).unwrap();
         draw(&path).unwrap();
-        assert_eq!(
-            std::fs::read_to_string(&path).unwrap(),
-            svg,
-            "{name} differs when drawn again"
-        );
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), svg, "{name} differs when drawn again");
         assert!(svg.starts_with("<svg width=\"800\" height=\""));
         assert!(svg.len() < limit, "{name} has {} bytes", svg.len());
         let place = self.directory.path().display().to_string();
-        for word in [
-            place.as_str(),
-            "/tmp",
-            "/home",
-            "file:",
-            "date",
-            "NaN",
-            "inf,",
-        ] {
+        for word in [place.as_str(), "/tmp", "/home", "file:", "date", "NaN", "inf,"] {
             assert!(!svg.contains(word), "{name} contains {word:?}");
         }
         let fonts = svg.matches("font-family=").count();
@@ -106,32 +81,23 @@ fn history(bench: &Bench, rows: usize, scale: f64) -> PathBuf {
 fn force_against_time() {
     let bench = Bench::new();
     let history = history(&bench, 20_000, 1.0);
-    let reference = |label: &str, value_n| force_time::ReferenceLine {
-        label: label.to_owned(),
-        value_n,
-    };
+    let reference = |label: &str, value_n| force_time::ReferenceLine { label: label.to_owned(), value_n };
     let lines = [
         reference("measured peak force on the rigid barrier", 262.0),
         reference("hydrodynamic, \u{3b1} = 1", 248.0),
         reference("static, K0", 48.0),
         reference("deposit behind the wall, static", 151.0),
     ];
-    let svg = bench.check("force_time.svg", 300_000, |out| {
-        force_time::draw(&history, &lines, out)
-    });
+    let svg = bench.check("force_time.svg", 300_000, |out| force_time::draw(&history, &lines, out));
     assert!(svg.contains("peak ") && svg.contains("hydrodynamic"));
-    bench.check("force_time_bare.svg", 300_000, |out| {
-        force_time::draw(&history, &[], out)
-    });
+    bench.check("force_time_bare.svg", 300_000, |out| force_time::draw(&history, &[], out));
 }
 
 #[test]
 fn large_forces_are_given_in_kilonewtons() {
     let bench = Bench::new();
     let history = history(&bench, 300, 1e3);
-    let svg = bench.check("force_time_large.svg", 300_000, |out| {
-        force_time::draw(&history, &[], out)
-    });
+    let svg = bench.check("force_time_large.svg", 300_000, |out| force_time::draw(&history, &[], out));
     assert!(svg.contains("normal force (kN)"));
 }
 
@@ -191,65 +157,37 @@ fn shares_of_the_energy() {
         ]
     };
     let energy = bench.table("energy.csv", &columns, (0..2500).map(row));
-    let svg = bench.check("energy_shares.svg", 300_000, |out| {
-        energy_shares::draw(&energy, out)
-    });
-    for text in [
-        "gravitational",
-        "kinetic",
-        "friction, base",
-        "other",
-        "residual of the balance",
-    ] {
+    let svg = bench.check("energy_shares.svg", 300_000, |out| energy_shares::draw(&energy, out));
+    for text in ["gravitational", "kinetic", "friction, base", "other", "residual of the balance"] {
         assert!(svg.contains(text), "{text} is not named");
     }
 }
 
 fn geometry(bench: &Bench) -> PathBuf {
     let rectangle = |id: f64, x: [f64; 2], y: [f64; 2]| {
-        [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
-            .map(|[x, y]| vec![id, x, y])
-            .to_vec()
+        [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(|[x, y]| vec![id, x, y]).to_vec()
     };
     let rows = [
         rectangle(0.0, [-0.3, 1.4], [-0.04, 0.0]),
         rectangle(1.0, [-0.3, -0.2], [0.0, 0.6]),
         rectangle(3.0, [1.2, 1.3], [0.0, 0.6]),
     ];
-    bench.table(
-        "geometry.csv",
-        &["boundary", "x_m", "y_m"],
-        rows.into_iter().flatten(),
-    )
+    bench.table("geometry.csv", &["boundary", "x_m", "y_m"], rows.into_iter().flatten())
 }
 
 fn field(bench: &Bench, times: &[f64]) -> PathBuf {
-    let columns = [
-        "time_s",
-        "x_m",
-        "y_m",
-        "solid_fraction",
-        "velocity_x_m_per_s",
-        "velocity_y_m_per_s",
-        "speed_m_per_s",
-    ];
+    let columns =
+        ["time_s", "x_m", "y_m", "solid_fraction", "velocity_x_m_per_s", "velocity_y_m_per_s", "speed_m_per_s"];
     let mut rows = Vec::new();
     for t in times {
         let front = (-0.0 + 2.2 * t * t + 0.6 * t).min(1.2);
         for i in 0..140 {
             for j in 0..60 {
                 let (x, y) = (-0.195 + 0.01 * f64::from(i), 0.005 + 0.01 * f64::from(j));
-                let depth = 0.55
-                    * (1.0 - (x + 0.2) / (front + 0.2))
-                        .max(0.0)
-                        .powf(0.2 + 1.2 * t.min(0.8))
-                    / (1.0 + 3.0 * t);
+                let depth =
+                    0.55 * (1.0 - (x + 0.2) / (front + 0.2)).max(0.0).powf(0.2 + 1.2 * t.min(0.8)) / (1.0 + 3.0 * t);
                 if y < depth && x < front {
-                    let speed = 3.0
-                        * t
-                        * (x + 0.2)
-                        * (0.6 + y)
-                        * (1.0 + 0.05 * noise(i as usize * 60 + j as usize));
+                    let speed = 3.0 * t * (x + 0.2) * (0.6 + y) * (1.0 + 0.05 * noise(i as usize * 60 + j as usize));
                     rows.push(vec![*t, x, y, 0.6, speed, 0.0, speed]);
                 }
             }
@@ -263,13 +201,10 @@ fn snapshots_of_the_flow() {
     let bench = Bench::new();
     let geometry = geometry(&bench);
     let field_of_8 = field(&bench, &[0.0, 0.2, 0.4, 0.5, 0.6, 0.8, 1.0, 1.5]);
-    bench.check("flow_snapshots.svg", 600_000, |out| {
-        flow_snapshots::draw(&field_of_8, &geometry, 40.0, out)
-    });
+    bench.check("flow_snapshots.svg", 600_000, |out| flow_snapshots::draw(&field_of_8, &geometry, 40.0, out));
     let field_of_3 = field(&bench, &[0.0, 0.25, 0.5]);
-    let svg = bench.check("flow_snapshots_level.svg", 400_000, |out| {
-        flow_snapshots::draw(&field_of_3, &geometry, 0.0, out)
-    });
+    let svg =
+        bench.check("flow_snapshots_level.svg", 400_000, |out| flow_snapshots::draw(&field_of_3, &geometry, 0.0, out));
     assert!(svg.contains("t = 0.25 s"));
 }
 
@@ -280,21 +215,11 @@ fn profiles_of_pressure() {
         let t = 0.5 + 0.1 * f64::from(k);
         (0..30).map(move |j| {
             let h = 0.01 * f64::from(j) + 0.005;
-            vec![
-                t,
-                h,
-                (4e3 * t * (0.1 * t + 0.12 - h)).max(0.0) * (1.0 + 0.1 * noise(j as usize)),
-            ]
+            vec![t, h, (4e3 * t * (0.1 * t + 0.12 - h)).max(0.0) * (1.0 + 0.1 * noise(j as usize))]
         })
     });
-    let profile = bench.table(
-        "pressure_profile.csv",
-        &["time_s", "height_m", "pressure_pa"],
-        rows,
-    );
-    let svg = bench.check("pressure_profile.svg", 300_000, |out| {
-        pressure_profile::draw(&profile, out)
-    });
+    let profile = bench.table("pressure_profile.csv", &["time_s", "height_m", "pressure_pa"], rows);
+    let svg = bench.check("pressure_profile.svg", 300_000, |out| pressure_profile::draw(&profile, out));
     assert!(svg.contains("normal pressure (Pa)") && svg.contains("0.9 s"));
 }
 
@@ -303,28 +228,15 @@ fn tables_that_cannot_be_drawn_are_refused_with_their_name() {
     let bench = Bench::new();
     let out = bench.directory.path().join("out.svg");
     let empty = bench.table("empty.csv", &["time_s", "height_m", "pressure_pa"], []);
-    let message = pressure_profile::draw(&empty, &out)
-        .unwrap_err()
-        .to_string();
+    let message = pressure_profile::draw(&empty, &out).unwrap_err().to_string();
     assert!(message.contains("empty.csv: no row has"), "{message}");
     let message = force_time::draw(&empty, &[], &out).unwrap_err().to_string();
-    assert!(
-        message.contains("no column \"force_normal_n\""),
-        "{message}"
-    );
-    let columns = [
-        "time_s",
-        "kinetic_j",
-        "gravitational_j",
-        "elastic_j",
-        "residual_j",
-    ];
+    assert!(message.contains("no column \"force_normal_n\""), "{message}");
+    let columns = ["time_s", "kinetic_j", "gravitational_j", "elastic_j", "residual_j"];
     let still = bench.table("still.csv", &columns, [vec![0.0; 5]]);
     let message = energy_shares::draw(&still, &out).unwrap_err().to_string();
     assert!(message.contains("not positive"), "{message}");
-    let message = flow_snapshots::draw(&empty, &empty, f64::NAN, &out)
-        .unwrap_err()
-        .to_string();
+    let message = flow_snapshots::draw(&empty, &empty, f64::NAN, &out).unwrap_err().to_string();
     assert!(message.contains("inclination"), "{message}");
     assert!(!out.exists());
 }
@@ -333,27 +245,11 @@ fn tables_that_cannot_be_drawn_are_refused_with_their_name() {
 fn a_single_row_is_enough() {
     let bench = Bench::new();
     let history = history(&bench, 1, 1.0);
-    bench.check("one_force.svg", 100_000, |out| {
-        force_time::draw(&history, &[], out)
-    });
+    bench.check("one_force.svg", 100_000, |out| force_time::draw(&history, &[], out));
     let geometry = geometry(&bench);
-    let cell = bench.table(
-        "cell.csv",
-        &["time_s", "x_m", "y_m", "speed_m_per_s"],
-        [vec![0.0, 0.1, 0.1, 0.0]],
-    );
-    bench.check("one_cell.svg", 100_000, |out| {
-        flow_snapshots::draw(&cell, &geometry, 40.0, out)
-    });
-    let columns = [
-        "time_s",
-        "kinetic_j",
-        "gravitational_j",
-        "elastic_j",
-        "residual_j",
-    ];
+    let cell = bench.table("cell.csv", &["time_s", "x_m", "y_m", "speed_m_per_s"], [vec![0.0, 0.1, 0.1, 0.0]]);
+    bench.check("one_cell.svg", 100_000, |out| flow_snapshots::draw(&cell, &geometry, 40.0, out));
+    let columns = ["time_s", "kinetic_j", "gravitational_j", "elastic_j", "residual_j"];
     let energy = bench.table("energy.csv", &columns, [vec![0.0, 0.0, 10.0, 0.1, 0.0]]);
-    bench.check("one_energy.svg", 100_000, |out| {
-        energy_shares::draw(&energy, out)
-    });
+    bench.check("one_energy.svg", 100_000, |out| energy_shares::draw(&energy, out));
 }

@@ -85,14 +85,8 @@ fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
         case::Contact::Rough => Friction::Rough,
     };
     let wall = |w: case::Wall| {
-        let wall = Boundary::wall(
-            &b.name,
-            w.foot_m.into(),
-            direction(w.inclination_deg),
-            w.height_m,
-            w.thickness_m,
-            friction,
-        );
+        let wall =
+            Boundary::wall(&b.name, w.foot_m.into(), direction(w.inclination_deg), w.height_m, w.thickness_m, friction);
         match w.material_side {
             case::MaterialSide::Left => wall,
             case::MaterialSide::Right => wall.facing_right(),

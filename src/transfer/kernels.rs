@@ -1,7 +1,7 @@
 //! The loops over material points.
 
 use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
-use crate::body::{Block, Points};
+use crate::body::{Block, Particle, Points};
 use crate::constitutive::{Increment, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane, floor_to_int};
 use crate::layout::BandSums;
@@ -35,10 +35,39 @@ impl Stencils {
         s
     }
 
+    /// Whether two lanes touch the same nodes.
+    #[inline(always)]
+    fn same(&self, a: usize, b: usize) -> bool {
+        self.node[0][a] == self.node[0][b] && self.node[1][a] == self.node[1][b]
+    }
+
     /// Index of the first of the three nodes in stencil column `i` of lane `l`.
     #[inline(always)]
     fn first(&self, map: &NodeMap, l: usize, i: usize) -> usize {
         map.index(self.node[0][l] + i as i32, self.node[1][l])
+    }
+}
+
+/// The stencil is a product of two one-dimensional ones, so sums over its nine nodes are taken along each column first and
+/// then over the three columns, four components at a time.
+#[inline(always)]
+fn add_scaled<const N: usize>(sum: &mut [f64; N], w: f64, v: &[f64; N]) {
+    for k in 0..N {
+        sum[k] += w * v[k];
+    }
+}
+
+#[inline(always)]
+fn scaled<const N: usize>(w: f64, v: [f64; N]) -> [f64; N] {
+    v.map(|x| w * x)
+}
+
+#[inline(always)]
+fn add_three<const N: usize>(nodes: &mut [[f64; N]; STENCIL], sums: &[[f64; N]; STENCIL]) {
+    for j in 0..STENCIL {
+        for k in 0..N {
+            nodes[j][k] += sums[j][k];
+        }
     }
 }
 
@@ -76,26 +105,64 @@ pub fn scatter<S: Shape1d, const INERTIA: bool, const FORCE: bool>(
             let pressure = if block.stress[2][l] < 0.0 { -block.stress[2][l] } else { 0.0 };
             side[l] = volume * constants.side_friction * pressure;
         }
-        for l in 0..n {
-            let carried = [m, m * block.v[0][l], m * block.v[1][l], side[l]];
-            for i in 0..STENCIL {
-                let first = stencil.first(map, l, i) - first_node;
-                if INERTIA {
-                    let wx = stencil.w[0][i][l];
-                    for (j, node) in three_mut(inertia, first).iter_mut().enumerate() {
-                        let w = wx * stencil.w[1][j][l];
-                        for (sum, c) in node.iter_mut().zip(carried) {
-                            *sum += w * c;
+        let mut l = 0;
+        while l < n {
+            // Sorted points share their stencil with the next few; their sum stays in registers.
+            let start = l;
+            let mut new_inertia = [[[0.0; 4]; STENCIL]; STENCIL];
+            let mut new_force = [[[0.0; 2]; STENCIL]; STENCIL];
+            while l < n && stencil.same(start, l) {
+                let carried = [m, m * block.v[0][l], m * block.v[1][l], side[l]];
+                for i in 0..STENCIL {
+                    let (wx, gx) = (stencil.w[0][i][l], stencil.g[0][i][l]);
+                    let column = scaled(wx, carried);
+                    let along = scaled(gx, [xx[l], xy[l]]);
+                    let across = scaled(wx, [xy[l], yy[l]]);
+                    for j in 0..STENCIL {
+                        let (w, g) = (stencil.w[1][j][l], stencil.g[1][j][l]);
+                        if INERTIA {
+                            add_scaled(&mut new_inertia[i][j], w, &column);
+                        }
+                        if FORCE {
+                            add_scaled(&mut new_force[i][j], w, &along);
+                            add_scaled(&mut new_force[i][j], g, &across);
                         }
                     }
                 }
+                l += 1;
+            }
+            for i in 0..STENCIL {
+                let first = stencil.first(map, start, i) - first_node;
+                if INERTIA {
+                    add_three(three_mut(inertia, first), &new_inertia[i]);
+                }
                 if FORCE {
-                    for (j, node) in three_mut(force, first).iter_mut().enumerate() {
-                        let gx = stencil.g[0][i][l] * stencil.w[1][j][l];
-                        let gy = stencil.w[0][i][l] * stencil.g[1][j][l];
-                        node[0] += gx * xx[l] + gy * xy[l];
-                        node[1] += gx * xy[l] + gy * yy[l];
-                    }
+                    add_three(three_mut(force, first), &new_force[i]);
+                }
+            }
+        }
+    }
+}
+
+/// Particle to grid: the force of a field of accelerations. Not in the hot path, so one point at a time.
+pub fn scatter_field<S: Shape1d>(
+    shape: S,
+    map: &NodeMap,
+    mass: f64,
+    acceleration: &dyn Fn(&Particle) -> [f64; 2],
+    points: &Points,
+    first_node: usize,
+    force: &mut [[f64; 2]],
+) {
+    for (block, n) in points.blocks() {
+        let stencil = Stencils::new(shape, map, block);
+        for l in 0..n {
+            let f = acceleration(&block.get(l)).map(|a| mass * a);
+            for i in 0..STENCIL {
+                let column = scaled(stencil.w[0][i][l], f);
+                let first = stencil.first(map, l, i) - first_node;
+                for (j, node) in three_mut(force, first).iter_mut().enumerate() {
+                    add_scaled(node, stencil.w[1][j][l], &column);
                 }
             }
         }
@@ -118,33 +185,29 @@ pub fn gather_velocity<S: Shape1d, const REMAP: bool>(
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
     for (block, n) in points.blocks_mut() {
         let stencil = Stencils::new(shape, map, block);
-        let mut seen = [ZERO; 4];
+        let mut seen = [[0.0; 4]; LANES];
         for l in 0..n {
             let mut sum = [0.0; 4];
             for i in 0..STENCIL {
-                let wx = stencil.w[0][i][l];
-                for (j, node) in three(motion, stencil.first(map, l, i)).iter().enumerate() {
-                    let w = wx * stencil.w[1][j][l];
-                    for (s, c) in sum.iter_mut().zip(node) {
-                        *s += w * c;
-                    }
-                }
+                let nodes = three(motion, stencil.first(map, l, i));
+                let mut column = scaled(stencil.w[1][0][l], nodes[0]);
+                add_scaled(&mut column, stencil.w[1][1][l], &nodes[1]);
+                add_scaled(&mut column, stencil.w[1][2][l], &nodes[2]);
+                add_scaled(&mut sum, stencil.w[0][i][l], &column);
             }
-            for (lane, s) in seen.iter_mut().zip(sum) {
-                lane[l] = s;
-            }
+            seen[l] = sum;
         }
         for d in 0..2 {
             for l in 0..LANES {
-                let flip = block.v[d][l] + seen[d + 2][l];
-                let new = flip + update.pic * (seen[d][l] - flip);
+                let flip = block.v[d][l] + seen[l][d + 2];
+                let new = flip + update.pic * (seen[l][d] - flip);
                 let used = if l < n { 1.0 } else { 0.0 };
                 kinetic[l] += used * (new * new);
                 lost[l] += used * (flip * flip - new * new);
                 let size = new.abs();
                 fastest[l] = if size > fastest[l] { size } else { fastest[l] };
                 block.v[d][l] = new;
-                let moved = update.dt * seen[d][l];
+                let moved = update.dt * seen[l][d];
                 let size = moved.abs();
                 farthest[l] = if size > farthest[l] { size } else { farthest[l] };
                 block.dx[d][l] = moved;
@@ -154,16 +217,23 @@ pub fn gather_velocity<S: Shape1d, const REMAP: bool>(
             }
         }
         if REMAP {
-            for l in 0..n {
-                let p = [m * block.v[0][l], m * block.v[1][l]];
-                for i in 0..STENCIL {
-                    let wx = stencil.w[0][i][l];
-                    let first = stencil.first(map, l, i) - first_node;
-                    for (j, node) in three_mut(momentum, first).iter_mut().enumerate() {
-                        let w = wx * stencil.w[1][j][l];
-                        node[0] += w * p[0];
-                        node[1] += w * p[1];
+            let mut l = 0;
+            while l < n {
+                let start = l;
+                let mut new_momentum = [[[0.0; 2]; STENCIL]; STENCIL];
+                while l < n && stencil.same(start, l) {
+                    let p = [m * block.v[0][l], m * block.v[1][l]];
+                    for i in 0..STENCIL {
+                        let column = scaled(stencil.w[0][i][l], p);
+                        for j in 0..STENCIL {
+                            add_scaled(&mut new_momentum[i][j], stencil.w[1][j][l], &column);
+                        }
                     }
+                    l += 1;
+                }
+                for i in 0..STENCIL {
+                    let first = stencil.first(map, start, i) - first_node;
+                    add_three(three_mut(momentum, first), &new_momentum[i]);
                 }
             }
         }
@@ -193,29 +263,34 @@ pub fn update_stress<S: Shape1d, L: Law>(
     for (block, n) in points.blocks_mut() {
         let stencil = Stencils::new(shape, map, block);
         // dv_x/dx, dv_y/dx, dv_x/dy, dv_y/dy
-        let mut gradient = [ZERO; 4];
+        let mut gradient = [[0.0; 4]; LANES];
         for l in 0..n {
+            let along_y: [[f64; 4]; STENCIL] = std::array::from_fn(|j| {
+                let (w, g) = (stencil.w[1][j][l], stencil.g[1][j][l]);
+                [w, w, g, g]
+            });
             let mut sum = [0.0; 4];
             for i in 0..STENCIL {
-                for (j, v) in three(velocity, stencil.first(map, l, i)).iter().enumerate() {
-                    let gx = stencil.g[0][i][l] * stencil.w[1][j][l];
-                    let gy = stencil.w[0][i][l] * stencil.g[1][j][l];
-                    sum[0] += gx * v[0];
-                    sum[1] += gx * v[1];
-                    sum[2] += gy * v[0];
-                    sum[3] += gy * v[1];
+                let nodes = three(velocity, stencil.first(map, l, i));
+                let mut column = [0.0; 4];
+                for k in 0..4 {
+                    column[k] = along_y[0][k] * nodes[0][k % 2]
+                        + along_y[1][k] * nodes[1][k % 2]
+                        + along_y[2][k] * nodes[2][k % 2];
+                }
+                let (w, g) = (stencil.w[0][i][l], stencil.g[0][i][l]);
+                for (k, along_x) in [g, g, w, w].into_iter().enumerate() {
+                    sum[k] += along_x * column[k];
                 }
             }
-            for (lane, s) in gradient.iter_mut().zip(sum) {
-                lane[l] = s;
-            }
+            gradient[l] = sum;
         }
         for l in 0..LANES {
             let increment = Increment {
-                xx: update.dt * gradient[0][l],
-                yy: update.dt * gradient[3][l],
-                xy: 0.5 * update.dt * (gradient[2][l] + gradient[1][l]),
-                spin: 0.5 * update.dt * (gradient[1][l] - gradient[2][l]),
+                xx: update.dt * gradient[l][0],
+                yy: update.dt * gradient[l][3],
+                xy: 0.5 * update.dt * (gradient[l][2] + gradient[l][1]),
+                spin: 0.5 * update.dt * (gradient[l][1] - gradient[l][2]),
             };
             let mut state = PointState {
                 stress: Stress {

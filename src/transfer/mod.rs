@@ -6,9 +6,11 @@
 mod dispatch;
 mod kernels;
 
-pub use dispatch::{VectorUnit, gather_velocity, limit_vector_unit, scatter, update_stress, vector_unit};
+pub use dispatch::{
+    VectorUnit, gather_velocity, limit_vector_unit, scatter, scatter_field, update_stress, vector_unit,
+};
 
-use crate::grid::{ActiveGrid, Column};
+use crate::grid::ActiveGrid;
 
 /// What a scatter adds to the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +59,7 @@ pub struct StressUpdate {
 /// Where nodes are in memory.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeMap<'a> {
-    columns: &'a [Column],
+    rows: &'a [i32],
     corner: [f64; 2],
     inverse_spacing: f64,
 }
@@ -65,13 +67,12 @@ pub struct NodeMap<'a> {
 impl<'a> NodeMap<'a> {
     /// The map of a grid.
     pub fn new(grid: &'a ActiveGrid) -> Self {
-        Self { columns: &grid.columns, corner: grid.corner, inverse_spacing: grid.inverse_spacing }
+        Self { rows: &grid.row_zero, corner: grid.corner, inverse_spacing: grid.inverse_spacing }
     }
 
     /// Index of the node at column `i` and row `j`, both counted from the grid's corner.
     #[inline(always)]
     fn index(&self, i: i32, j: i32) -> usize {
-        let column = &self.columns[i as usize];
-        (column.start as i32 + (j - column.row)) as usize
+        (self.rows[i as usize] + j) as usize
     }
 }

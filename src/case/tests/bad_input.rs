@@ -4,12 +4,7 @@ use super::{FLUME, changed, line_of, report_of};
 use crate::case::parse;
 
 /// Text to replace, by what, text on the line that must be reported (empty: the file as a whole), parts of the report.
-type Bad = (
-    &'static str,
-    &'static str,
-    &'static str,
-    &'static [&'static str],
-);
+type Bad = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
 fn check(table: &[Bad]) {
     for (replace, by, at, contains) in table {
@@ -21,10 +16,7 @@ fn check(table: &[Bad]) {
             at => format!("--> some/case.toml:{}:", line_of(&text, at)),
         };
         for expected in [place.as_str(), " = fix: "].iter().chain(*contains) {
-            assert!(
-                report.contains(expected),
-                "no {expected:?} for {by:?} in\n{report}"
-            );
+            assert!(report.contains(expected), "no {expected:?} for {by:?} in\n{report}");
         }
     }
 }
@@ -103,9 +95,7 @@ const NAMES_AND_COMBINATIONS: &[Bad] = &[
 fn names_and_combinations() {
     check(NAMES_AND_COMBINATIONS);
     let without_tilt = changed("[stages.tilt]", "#").replacen("duration_s = 0.5", "#", 1);
-    assert!(
-        report_of(&without_tilt).contains("add [stages.tilt] or leave settle_inclination_deg out")
-    );
+    assert!(report_of(&without_tilt).contains("add [stages.tilt] or leave settle_inclination_deg out"));
 }
 
 #[rustfmt::skip]
@@ -172,19 +162,12 @@ const SYNTAX_KEYS_AND_TYPES: &[Bad] = &[
 fn syntax_keys_and_types() {
     check(SYNTAX_KEYS_AND_TYPES);
     // Serde would take the list for the one field of the table.
-    let list = changed("title = ", "output = [0.02]\ntitle = ")
-        .replacen("[output]", "#", 1)
-        .replacen("vtk_", "#", 1);
+    let list = changed("title = ", "output = [0.02]\ntitle = ").replacen("[output]", "#", 1).replacen("vtk_", "#", 1);
     assert!(report_of(&list).contains("write [output], with single brackets"));
     assert!(report_of("").contains("title is missing"));
-    assert!(
-        report_of("# vtk DataFile Version 3.0\nframe\nASCII\n")
-            .contains("each line is key = value")
-    );
+    assert!(report_of("# vtk DataFile Version 3.0\nframe\nASCII\n").contains("each line is key = value"));
     assert!(parse(&format!("\u{feff}{FLUME}"), "with a byte order mark").is_ok());
-    let crlf = FLUME
-        .replace('\n', "\r\n")
-        .replacen("poisson = 0.3", "poisson = 0.5", 1);
+    let crlf = FLUME.replace('\n', "\r\n").replacen("poisson = 0.3", "poisson = 0.5", 1);
     assert!(report_of(&crlf).contains("poisson = 0.5"));
     assert!(!report_of(&crlf).contains('\r'));
 }

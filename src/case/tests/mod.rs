@@ -10,61 +10,43 @@ mod bad_input;
 const FLUME: &str = include_str!("../../../validation/flume/40deg.toml");
 
 fn line_of(text: &str, marker: &str) -> usize {
-    let position = text
-        .find(marker)
-        .unwrap_or_else(|| panic!("no {marker:?} in the text"));
+    let position = text.find(marker).unwrap_or_else(|| panic!("no {marker:?} in the text"));
     text[..position].matches('\n').count() + 1
 }
 
 fn changed(replace: &str, by: &str) -> String {
-    assert!(
-        FLUME.contains(replace),
-        "the 40 degree case has no {replace:?}"
-    );
+    assert!(FLUME.contains(replace), "the 40 degree case has no {replace:?}");
     FLUME.replacen(replace, by, 1)
 }
 
 fn report_of(text: &str) -> String {
-    parse(text, "some/case.toml")
-        .expect_err("accepted")
-        .to_string()
+    parse(text, "some/case.toml").expect_err("accepted").to_string()
 }
 
 #[test]
 fn flume_cases_load_without_warnings() {
     for name in ["40deg", "23deg"] {
-        let path =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/flume/{name}.toml"));
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/flume/{name}.toml"));
         let loaded = load(&path).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(loaded.warnings, Vec::<String>::new());
         assert_eq!(loaded.case.particle_spacing_m(), 0.005);
         assert_eq!(loaded.case.particle_count_estimate(), 4000.0);
     }
     let [steep, flat] = ["40deg", "23deg"].map(|name| {
-        let path =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/flume/{name}.toml"));
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/flume/{name}.toml"));
         load(&path).unwrap_or_else(|error| panic!("{error}")).case
     });
     let mut expected = steep;
     expected.title = flat.title.clone();
     expected.gravity.inclination_deg = 23.0;
-    assert_eq!(
-        flat, expected,
-        "the cases differ in title and inclination only"
-    );
+    assert_eq!(flat, expected, "the cases differ in title and inclination only");
 }
 
 #[test]
 fn written_and_read_again_a_case_is_the_same() {
     let case = parse(FLUME, "40deg.toml").unwrap().case;
     let text = case.to_toml().unwrap();
-    assert_eq!(
-        parse(&text, "again.toml").unwrap(),
-        LoadedCase {
-            case,
-            warnings: Vec::new()
-        }
-    );
+    assert_eq!(parse(&text, "again.toml").unwrap(), LoadedCase { case, warnings: Vec::new() });
 }
 
 #[test]
@@ -79,25 +61,13 @@ fn defaults_are_filled_in_and_shown() {
         boundaries = [{ name = "stop", kind = "gate", foot_m = [1, 0], height_m = 1, contact = "rough" }]
         stages.run = { end_time_s = 1 }
     "#;
-    let case = parse(text, "block.toml")
-        .unwrap_or_else(|error| panic!("{error}"))
-        .case;
+    let case = parse(text, "block.toml").unwrap_or_else(|error| panic!("{error}")).case;
     assert_eq!(
         case.gravity,
-        Gravity {
-            magnitude_m_per_s2: 9.81,
-            inclination_deg: 10.0,
-            settle_inclination_deg: Some(10.0),
-        }
+        Gravity { magnitude_m_per_s2: 9.81, inclination_deg: 10.0, settle_inclination_deg: Some(10.0) }
     );
-    assert_eq!(
-        (case.grid.shape_function, case.grid.particles_per_cell),
-        (ShapeFunction::Ugimp, 4)
-    );
-    assert_eq!(
-        (case.numerics.scheme, case.numerics.cfl),
-        (Scheme::Musl, 0.3)
-    );
+    assert_eq!((case.grid.shape_function, case.grid.particles_per_cell), (ShapeFunction::Ugimp, 4));
+    assert_eq!((case.numerics.scheme, case.numerics.cfl), (Scheme::Musl, 0.3));
     assert_eq!(case.numerics.pic(), Pic::FractionPerStep(5.0e-4));
     assert_eq!(case.output.vtk_interval_s, 0.02);
     assert_eq!(case.gauges, Gauges::default());
@@ -109,16 +79,10 @@ fn defaults_are_filled_in_and_shown() {
         material_side: MaterialSide::Left,
         thickness_m: 0.4,
     };
-    assert_eq!(
-        case.boundaries[0].shape(&case.grid),
-        Some(Shape::Gate(wall, Opening::Vanish))
-    );
+    assert_eq!(case.boundaries[0].shape(&case.grid), Some(Shape::Gate(wall, Opening::Vanish)));
     assert_eq!(case.boundaries[0].contact_law(), Some(Contact::Rough));
     assert_eq!(wall.normal(), [-1.0, 0.0]);
-    assert_eq!(
-        wall.corners_m(),
-        [[1.0, 0.0], [1.0, 1.0], [1.4, 1.0], [1.4, 0.0]]
-    );
+    assert_eq!(wall.corners_m(), [[1.0, 0.0], [1.0, 1.0], [1.4, 1.0], [1.4, 0.0]]);
     let wave_speed = (1.0e8_f64 * 0.8 / (1.2 * 0.6) / 2000.0).sqrt();
     approx::assert_relative_eq!(case.time_step_estimate_s(), 0.3 * 0.1 / wave_speed);
     assert!(case.to_toml().unwrap().contains("pic_fraction = 0.0005"));
@@ -143,93 +107,49 @@ error: title = 1.0e400 is too large
     assert!(report.starts_with(&format!(
         "error: materials.sand.poisson = 0.5 is not allowed\n  --> some/case.toml:{line}:11\n   |\n{line} | poisson = 0.5"
     )));
-    assert!(
-        report.contains(
-            "\n   |           ^^^\n   = allowed: -1 < poisson < 0.5 (0.5 is incompressible"
-        )
-    );
+    assert!(report.contains("\n   |           ^^^\n   = allowed: -1 < poisson < 0.5 (0.5 is incompressible"));
     assert!(report.ends_with("\n   = fix: use a value such as 0.49\n"));
 }
 
 #[test]
 fn all_problems_are_reported_in_the_order_of_the_file() {
-    let text = changed("poisson = 0.3", "poisson = 0.7")
-        .replacen("cfl = 0.3", "cfl = 0", 1)
-        .replacen("spacing_m = 0.01", "spacing_m = -1", 1);
-    let Err(CaseError::Invalid { report, problems }) = parse(&text, "a.toml") else {
-        panic!("accepted")
-    };
+    let text = changed("poisson = 0.3", "poisson = 0.7").replacen("cfl = 0.3", "cfl = 0", 1).replacen(
+        "spacing_m = 0.01",
+        "spacing_m = -1",
+        1,
+    );
+    let Err(CaseError::Invalid { report, problems }) = parse(&text, "a.toml") else { panic!("accepted") };
     assert_eq!(problems.len(), 3);
-    let position = |text: &str| {
-        report
-            .find(text)
-            .unwrap_or_else(|| panic!("no {text} in\n{report}"))
-    };
+    let position = |text: &str| report.find(text).unwrap_or_else(|| panic!("no {text} in\n{report}"));
     assert!(position("spacing_m = -1 ") < position("poisson = 0.7 "));
     assert!(position("poisson = 0.7 ") < position("cfl = 0 "));
     assert!(report.ends_with("error: 3 problems in a.toml\n"));
 
     let two = changed("poisson = 0.3", "poison = 0.3").replacen("cfl = 0.3", "clf = 0.3", 1);
     let report = report_of(&two);
-    assert!(
-        report.contains("`poisson`") && report.contains("`cfl`"),
-        "{report}"
-    );
+    assert!(report.contains("`poisson`") && report.contains("`cfl`"), "{report}");
 }
 
 #[test]
 fn implausible_values_are_warnings() {
     for (replace, by, fix) in [
-        (
-            "young_pa = 1.0e6",
-            "young_pa = 1",
-            "if the value is in MPa, write 1000000",
-        ),
-        (
-            "friction_angle_deg = 31",
-            "friction_angle_deg = 0.54",
-            "in radians, write 30.9",
-        ),
-        (
-            "inclination_deg = 40",
-            "inclination_deg = 0.7",
-            "in radians, write 40.1",
-        ),
-        (
-            "friction = 0.4",
-            "friction = 21.8",
-            "write its tangent, 0.39997",
-        ),
+        ("young_pa = 1.0e6", "young_pa = 1", "if the value is in MPa, write 1000000"),
+        ("friction_angle_deg = 31", "friction_angle_deg = 0.54", "in radians, write 30.9"),
+        ("inclination_deg = 40", "inclination_deg = 0.7", "in radians, write 40.1"),
+        ("friction = 0.4", "friction = 21.8", "write its tangent, 0.39997"),
         ("settle_inclination_deg = 0", "", "leave [stages.tilt] out"),
-        (
-            "foot_m = [1.2, 0.0]",
-            "foot_m = [12, 0.0]",
-            "move the wall, or enlarge the domain",
-        ),
+        ("foot_m = [1.2, 0.0]", "foot_m = [12, 0.0]", "move the wall, or enlarge the domain"),
         ("tension_cutoff_pa = 0", "tension_cutoff_pa = 10", "apex"),
-        (
-            "inclination_deg = 90  ",
-            "inclination_deg = 1.5",
-            "in radians",
-        ),
+        ("inclination_deg = 90  ", "inclination_deg = 1.5", "in radians"),
     ] {
         let text = changed(replace, by);
-        let text = if by.contains("1.5") {
-            text.replacen("foot_m = [-0.2, 0.0]", "foot_m = [0.5, 1.2]", 1)
-        } else {
-            text
-        };
-        let warnings = parse(&text, "some/case.toml")
-            .unwrap_or_else(|error| panic!("{error}"))
-            .warnings;
+        let text =
+            if by.contains("1.5") { text.replacen("foot_m = [-0.2, 0.0]", "foot_m = [0.5, 1.2]", 1) } else { text };
+        let warnings = parse(&text, "some/case.toml").unwrap_or_else(|error| panic!("{error}")).warnings;
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         let at = if by.is_empty() { "duration_s" } else { by };
         let line = format!("--> some/case.toml:{}:", line_of(&text, at));
-        assert!(
-            warnings[0].starts_with("warning: ") && warnings[0].contains(&line),
-            "{}",
-            warnings[0]
-        );
+        assert!(warnings[0].starts_with("warning: ") && warnings[0].contains(&line), "{}", warnings[0]);
         assert!(warnings[0].contains(fix), "{}", warnings[0]);
     }
     let light = changed("_m3 = 1500", "_m3 = 1.5").replacen("mass_kg = 30", "", 1);
@@ -258,10 +178,7 @@ fn files_that_are_no_case_files() {
 
 #[test]
 fn no_prefix_of_a_case_panics() {
-    for end in (0..FLUME.len())
-        .filter(|end| FLUME.is_char_boundary(*end))
-        .step_by(7)
-    {
+    for end in (0..FLUME.len()).filter(|end| FLUME.is_char_boundary(*end)).step_by(7) {
         let _ = parse(&FLUME[..end], "part.toml").map_err(|error| error.to_string());
     }
     for odd in [
@@ -283,10 +200,7 @@ fn no_prefix_of_a_case_panics() {
 #[test]
 fn nearest_names() {
     assert_eq!(edit_distance("kitten", "sitting"), 3);
-    assert_eq!(
-        nearest("frction", ["cohesion", "friction"]),
-        Some("friction")
-    );
+    assert_eq!(nearest("frction", ["cohesion", "friction"]), Some("friction"));
     assert_eq!(nearest("height", ["height_m", "weight"]), Some("height_m"));
     assert_eq!(nearest("velocity", ["x_m", "y_m"]), None);
 }

@@ -17,20 +17,9 @@ impl Checker<'_> {
         let list = KeyPath::top("bodies");
         if self.case.bodies.is_empty() {
             let what = "the case has no body".to_owned();
-            self.problem(
-                &list,
-                what,
-                &"",
-                "at least one of [[bodies]]",
-                "add [[bodies]] with a material to simulate",
-            );
+            self.problem(&list, what, &"", "at least one of [[bodies]]", "add [[bodies]] with a material to simulate");
         }
-        let names: Vec<&str> = self
-            .case
-            .bodies
-            .iter()
-            .map(|body| body.name.as_str())
-            .collect();
+        let names: Vec<&str> = self.case.bodies.iter().map(|body| body.name.as_str()).collect();
         self.names(&list, &names);
         for (index, body) in self.case.bodies.iter().enumerate() {
             let at = list.index(index);
@@ -40,28 +29,15 @@ impl Checker<'_> {
             let names = self.case.materials.keys().map(String::as_str);
             if !self.case.materials.contains_key(&body.material) {
                 let fix = did_you_mean(&body.material, names);
-                self.not_allowed(
-                    &at.key("material"),
-                    &body.material,
-                    "the name of one of [materials.NAME]",
-                    &fix,
-                );
+                self.not_allowed(&at.key("material"), &body.material, "the name of one of [materials.NAME]", &fix);
             }
             self.mass(&at, body);
         }
-        for (index, body) in self
-            .case
-            .bodies
-            .iter()
-            .enumerate()
-            .filter(|(_, body)| has_geometry(body))
-        {
+        for (index, body) in self.case.bodies.iter().enumerate().filter(|(_, body)| has_geometry(body)) {
             let at = list.index(index);
             self.inside_domain(&at, body);
             self.clear_of_boundaries(&at, body);
-            let others = self.case.bodies[..index]
-                .iter()
-                .filter(|other| has_geometry(other));
+            let others = self.case.bodies[..index].iter().filter(|other| has_geometry(other));
             for other in others {
                 let penetration = penetration_of_rectangle(&body.corners_m(), &other.corners_m());
                 self.overlap(&at, body, penetration, &format!("body `{}`", other.name));
@@ -79,10 +55,7 @@ impl Checker<'_> {
         let [length, height] = body.size_m();
         let (density, thickness) = (material.density_kg_per_m3, self.case.grid.thickness_m);
         let actual = density * length * height * thickness;
-        let usable = [length, height, density, thickness, mass]
-            .iter()
-            .all(|x| *x > 0.0)
-            && actual.is_finite();
+        let usable = [length, height, density, thickness, mass].iter().all(|x| *x > 0.0) && actual.is_finite();
         if usable && (mass - actual).abs() > MASS_TOLERANCE * actual {
             let what = format!(
                 "{path} = {} differs from density x area x thickness = {} x {} x {} = {} kg",
@@ -112,20 +85,10 @@ impl Checker<'_> {
             let greatest = reach.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let outside = (low - least).max(greatest - high);
             if low < high && outside > OVERLAP_TOLERANCE_M {
-                let what = format!(
-                    "body `{}` reaches {} m out of the domain",
-                    body.name,
-                    text(outside)
-                );
+                let what = format!("body `{}` reaches {} m out of the domain", body.name, text(outside));
                 let allowed = format!("inside domain.{key} = [{}, {}]", text(low), text(high));
                 let edges = if axis == 0 { body.x_m } else { body.y_m };
-                self.problem(
-                    &at.key(key),
-                    what,
-                    &edges,
-                    &allowed,
-                    "move the body, or enlarge the domain",
-                );
+                self.problem(&at.key(key), what, &edges, &allowed, "move the body, or enlarge the domain");
             }
         }
     }
@@ -138,20 +101,12 @@ impl Checker<'_> {
                 continue;
             };
             let penetration = match shape {
-                Shape::Plane {
-                    point_m,
-                    normal_deg,
-                } => penetration_of_plane(&body.corners_m(), point_m, normal_deg),
+                Shape::Plane { point_m, normal_deg } => penetration_of_plane(&body.corners_m(), point_m, normal_deg),
                 Shape::Wall(wall) | Shape::Gate(wall, _) => {
                     penetration_of_rectangle(&body.corners_m(), &wall.corners_m())
                 }
             };
-            self.overlap(
-                at,
-                body,
-                penetration,
-                &format!("boundary `{}`", boundary.name),
-            );
+            self.overlap(at, body, penetration, &format!("boundary `{}`", boundary.name));
         }
     }
 
@@ -160,17 +115,9 @@ impl Checker<'_> {
         if depth_m <= OVERLAP_TOLERANCE_M {
             return;
         }
-        let what = format!(
-            "body `{}` overlaps {other} by {} m",
-            body.name,
-            text(depth_m)
-        );
+        let what = format!("body `{}` overlaps {other} by {} m", body.name, text(depth_m));
         let axis = usize::from(way_out[1].abs() > way_out[0].abs());
-        let (key, edges) = if axis == 0 {
-            ("x_m", body.x_m)
-        } else {
-            ("y_m", body.y_m)
-        };
+        let (key, edges) = if axis == 0 { ("x_m", body.x_m) } else { ("y_m", body.y_m) };
         let straight = body.rotation_deg == 0.0 && way_out[axis].abs() == 1.0;
         let fix = match cut(edges, way_out[axis] * depth_m) {
             Some([low, high]) if straight => format!("use {key} = [{}, {}]", text(low), text(high)),
@@ -186,11 +133,7 @@ impl Checker<'_> {
 
 /// An interval shortened by this much at its lower end, or, if negative, at its upper end; `None` if nothing is left.
 fn cut([low, high]: [f64; 2], by: f64) -> Option<[f64; 2]> {
-    let shorter = if by > 0.0 {
-        [low + by, high]
-    } else {
-        [low, high + by]
-    };
+    let shorter = if by > 0.0 { [low + by, high] } else { [low, high + by] };
     // Without the rounding of the subtraction: 0, not 1.4e-17.
     let shorter = shorter.map(|edge| (edge * 1.0e12).round() / 1.0e12);
     (shorter[1] - shorter[0] > OVERLAP_TOLERANCE_M).then_some(shorter)
@@ -199,7 +142,5 @@ fn cut([low, high]: [f64; 2], by: f64) -> Option<[f64; 2]> {
 /// Whether the edges of a body are in order, so that it has corners and an area.
 pub(super) fn has_geometry(body: &Body) -> bool {
     let [length, height] = body.size_m();
-    [length, height, body.rotation_deg.abs() + 1.0]
-        .iter()
-        .all(|x| x.is_finite() && *x > 0.0)
+    [length, height, body.rotation_deg.abs() + 1.0].iter().all(|x| x.is_finite() && *x > 0.0)
 }

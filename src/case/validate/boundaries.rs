@@ -18,12 +18,7 @@ use Need::{Optional, Refused, Required};
 impl Checker<'_> {
     pub(super) fn boundaries(&mut self) {
         let list = KeyPath::top("boundaries");
-        let names: Vec<&str> = self
-            .case
-            .boundaries
-            .iter()
-            .map(|boundary| boundary.name.as_str())
-            .collect();
+        let names: Vec<&str> = self.case.boundaries.iter().map(|boundary| boundary.name.as_str()).collect();
         self.names(&list, &names);
         for (index, boundary) in self.case.boundaries.iter().enumerate() {
             let at = list.index(index);
@@ -38,22 +33,13 @@ impl Checker<'_> {
             ] {
                 self.positive(&at.key(key), number.unwrap_or(example), example);
             }
-            for (key, angle) in [
-                ("normal_deg", boundary.normal_deg),
-                ("inclination_deg", boundary.inclination_deg),
-            ] {
+            for (key, angle) in [("normal_deg", boundary.normal_deg), ("inclination_deg", boundary.inclination_deg)] {
                 self.angle(&at.key(key), angle.unwrap_or(0.0), 360.0);
             }
         }
     }
 
-    fn field<T: Serialize>(
-        &mut self,
-        at: &KeyPath,
-        (key, given): (&str, &Option<T>),
-        need: Need,
-        of: &str,
-    ) {
+    fn field<T: Serialize>(&mut self, at: &KeyPath, (key, given): (&str, &Option<T>), need: Need, of: &str) {
         let path = at.key(key);
         match (given, need) {
             (None, Required) => {
@@ -68,13 +54,7 @@ impl Checker<'_> {
             }
             (Some(value), Refused) => {
                 let what = format!("{path} = {} does not belong to {of}", toml_text(value));
-                self.problem(
-                    &path,
-                    what,
-                    value,
-                    &format!("{of} does not use {key}"),
-                    "remove the line",
-                );
+                self.problem(&path, what, value, &format!("{of} does not use {key}"), "remove the line");
             }
             _ => {}
         }
@@ -90,12 +70,7 @@ impl Checker<'_> {
         self.field(at, ("normal_deg", &boundary.normal_deg), plane, of);
         self.field(at, ("foot_m", &boundary.foot_m), wall, of);
         self.field(at, ("height_m", &boundary.height_m), wall, of);
-        self.field(
-            at,
-            ("inclination_deg", &boundary.inclination_deg),
-            optional,
-            of,
-        );
+        self.field(at, ("inclination_deg", &boundary.inclination_deg), optional, of);
         self.field(at, ("material_side", &boundary.material_side), optional, of);
         self.field(at, ("thickness_m", &boundary.thickness_m), optional, of);
     }
@@ -110,24 +85,12 @@ impl Checker<'_> {
         match boundary.friction {
             None if need == Required => {
                 let fix = "add a line such as friction = 0.4, or use contact = \"smooth\"";
-                self.problem(
-                    &path,
-                    format!("{path} is missing"),
-                    &"",
-                    &format!("required by {of}"),
-                    fix,
-                );
+                self.problem(&path, format!("{path} is missing"), &"", &format!("required by {of}"), fix);
             }
             Some(friction) if need == Refused => {
                 let what = format!("{path} = {} does not belong to {of}", toml_text(&friction));
                 let fix = "use contact = \"coulomb\", or remove the friction";
-                self.problem(
-                    &path,
-                    what,
-                    &friction,
-                    "friction only with contact = \"coulomb\"",
-                    fix,
-                );
+                self.problem(&path, what, &friction, "friction only with contact = \"coulomb\"", fix);
             }
             friction => self.not_negative(&path, friction.unwrap_or(0.0), 0.4),
         }
@@ -138,23 +101,12 @@ impl Checker<'_> {
         let (way, speed, height, of) = match (boundary.kind, opening) {
             (BoundaryKind::Plane, _) => (Refused, Refused, Refused, "kind = \"plane\""),
             (BoundaryKind::Wall, _) => (Refused, Refused, Refused, "kind = \"wall\""),
-            (BoundaryKind::Gate, OpeningKind::Vanish) => {
-                (Optional, Refused, Refused, "opening = \"vanish\"")
-            }
-            (BoundaryKind::Gate, OpeningKind::Lift) => {
-                (Optional, Required, Refused, "opening = \"lift\"")
-            }
-            (BoundaryKind::Gate, OpeningKind::Raise) => {
-                (Optional, Optional, Required, "opening = \"raise\"")
-            }
+            (BoundaryKind::Gate, OpeningKind::Vanish) => (Optional, Refused, Refused, "opening = \"vanish\""),
+            (BoundaryKind::Gate, OpeningKind::Lift) => (Optional, Required, Refused, "opening = \"lift\""),
+            (BoundaryKind::Gate, OpeningKind::Raise) => (Optional, Optional, Required, "opening = \"raise\""),
         };
         self.field(at, ("opening", &boundary.opening), way, of);
-        self.field(
-            at,
-            ("lift_speed_m_per_s", &boundary.lift_speed_m_per_s),
-            speed,
-            of,
-        );
+        self.field(at, ("lift_speed_m_per_s", &boundary.lift_speed_m_per_s), speed, of);
         self.field(at, ("opening_m", &boundary.opening_m), height, of);
     }
 }

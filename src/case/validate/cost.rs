@@ -23,21 +23,13 @@ impl Checker<'_> {
 
     fn particles(&mut self) {
         let (case, spacing) = (self.case, self.case.particle_spacing_m());
-        for (index, body) in case
-            .bodies
-            .iter()
-            .enumerate()
-            .filter(|(_, body)| has_geometry(body))
-        {
+        for (index, body) in case.bodies.iter().enumerate().filter(|(_, body)| has_geometry(body)) {
             let at = KeyPath::top("bodies").index(index);
             let [along, across] = body.particle_counts(spacing);
             for (key, edges, count) in [("x_m", body.x_m, along), ("y_m", body.y_m, across)] {
                 if count == 0.0 {
                     let what = format!("body `{}` holds no particle", body.name);
-                    let allowed = format!(
-                        "sides of at least half the particle spacing of {} m",
-                        text(spacing)
-                    );
+                    let allowed = format!("sides of at least half the particle spacing of {} m", text(spacing));
                     let fix = "enlarge the body, or use a smaller grid.spacing_m";
                     self.problem(&at.key(key), what, &edges, &allowed, fix);
                 }
@@ -54,10 +46,7 @@ impl Checker<'_> {
             .map(|body| body.particle_counts(case.particle_spacing_m()))
             .map(|[along, across]| along * across)
             .sum();
-        let bodies_area: f64 = bodies()
-            .map(Body::size_m)
-            .map(|[length, height]| length * height)
-            .sum();
+        let bodies_area: f64 = bodies().map(Body::size_m).map(|[length, height]| length * height).sum();
         let domain_area = (domain.x_m[1] - domain.x_m[0]) * (domain.y_m[1] - domain.y_m[0]);
         let cells = domain_area / spacing.powi(2);
 
@@ -71,14 +60,8 @@ impl Checker<'_> {
         ] {
             if count > limit {
                 let path = KeyPath::top("grid").key("spacing_m");
-                let what = format!(
-                    "{path} = {} would give {count:.1e} {of_what}",
-                    text(spacing)
-                );
-                let allowed = format!(
-                    "at most {limit:.1e} {of_what}: spacing_m >= {}",
-                    text(smallest)
-                );
+                let what = format!("{path} = {} would give {count:.1e} {of_what}", text(spacing));
+                let allowed = format!("at most {limit:.1e} {of_what}: spacing_m >= {}", text(smallest));
                 let fix = format!("use spacing_m = {} or more", text(both));
                 self.problem(&path, what, &spacing, &allowed, &fix);
             }
@@ -87,16 +70,9 @@ impl Checker<'_> {
 
     fn time_steps(&mut self) {
         let run = KeyPath::top("stages").key("run").key("end_time_s");
-        let (end, step) = (
-            self.case.stages.run.end_time_s,
-            self.case.time_step_estimate_s(),
-        );
+        let (end, step) = (self.case.stages.run.end_time_s, self.case.time_step_estimate_s());
         if end.is_finite() && end / step > MAX_TIME_STEPS {
-            let what = format!(
-                "{run} = {} would take {:.1e} time steps",
-                text(end),
-                end / step
-            );
+            let what = format!("{run} = {} would take {:.1e} time steps", text(end), end / step);
             let allowed = format!(
                 "at most {MAX_TIME_STEPS:.1e} steps of {} s, the time step of this cell size and the fastest waves",
                 text(step)

@@ -8,11 +8,7 @@ impl Checker<'_> {
     pub(super) fn materials(&mut self) {
         for (name, material) in &self.case.materials {
             let at = KeyPath::top("materials").key(name);
-            self.positive(
-                &at.key("density_kg_per_m3"),
-                material.density_kg_per_m3,
-                1500.0,
-            );
+            self.positive(&at.key("density_kg_per_m3"), material.density_kg_per_m3, 1500.0);
             self.positive(&at.key("young_pa"), material.young_pa, 1.0e6);
             self.poisson(&at.key("poisson"), material.poisson);
             match material.law {
@@ -24,29 +20,17 @@ impl Checker<'_> {
 
     fn poisson(&mut self, path: &KeyPath, poisson: f64) {
         let (why, fix) = if poisson >= 0.5 {
-            (
-                " (0.5 is incompressible: the P-wave speed, and with it the time step, has no bound)",
-                "0.49",
-            )
+            (" (0.5 is incompressible: the P-wave speed, and with it the time step, has no bound)", "0.49")
         } else {
             (" (at -1 the shear modulus is infinite)", "0.3")
         };
         let allowed = format!("-1 < poisson < 0.5{why}");
         let holds = poisson > -1.0 && poisson < 0.5;
-        self.require(
-            path,
-            poisson,
-            holds,
-            &allowed,
-            &format!("use a value such as {fix}"),
-        );
+        self.require(path, poisson, holds, &allowed, &format!("use a value such as {fix}"));
     }
 
     fn drucker_prager(&mut self, at: &KeyPath, material: &Material) {
-        let zero_or_more = [
-            ("cohesion_pa", material.cohesion_pa),
-            ("tension_cutoff_pa", material.tension_cutoff_pa),
-        ];
+        let zero_or_more = [("cohesion_pa", material.cohesion_pa), ("tension_cutoff_pa", material.tension_cutoff_pa)];
         for (key, number) in zero_or_more {
             self.not_negative(&at.key(key), number.unwrap_or(0.0), 0.0);
         }
@@ -54,13 +38,7 @@ impl Checker<'_> {
         let Some(friction) = material.friction_angle_deg else {
             let what = format!("{path} is missing");
             let fix = "add a line such as friction_angle_deg = 31";
-            return self.problem(
-                &path,
-                what,
-                &"",
-                "required by law = \"drucker_prager\"",
-                fix,
-            );
+            return self.problem(&path, what, &"", "required by law = \"drucker_prager\"", fix);
         };
         let holds = (0.0..90.0).contains(&friction);
         let allowed = "0 <= friction_angle_deg < 90, in degrees";
@@ -76,19 +54,10 @@ impl Checker<'_> {
             self.not_allowed(&path, &friction, &allowed, fix);
         }
         if let Some(dilatancy) = material.dilatancy_angle_deg {
-            let allowed = format!(
-                "0 <= dilatancy_angle_deg <= friction_angle_deg = {}",
-                text(friction)
-            );
+            let allowed = format!("0 <= dilatancy_angle_deg <= friction_angle_deg = {}", text(friction));
             let holds = dilatancy >= 0.0 && (dilatancy <= friction || !friction.is_finite());
             let fix = "use 0 for flow at constant volume";
-            self.require(
-                &at.key("dilatancy_angle_deg"),
-                dilatancy,
-                holds,
-                &allowed,
-                fix,
-            );
+            self.require(&at.key("dilatancy_angle_deg"), dilatancy, holds, &allowed, fix);
         }
     }
 
@@ -96,10 +65,7 @@ impl Checker<'_> {
         let given = [
             ("friction_angle_deg", material.friction_angle_deg.is_some()),
             ("cohesion_pa", material.cohesion_pa.is_some()),
-            (
-                "dilatancy_angle_deg",
-                material.dilatancy_angle_deg.is_some(),
-            ),
+            ("dilatancy_angle_deg", material.dilatancy_angle_deg.is_some()),
             ("cone", material.cone.is_some()),
             ("tension_cutoff_pa", material.tension_cutoff_pa.is_some()),
             ("void_tracking", material.void_tracking.is_some()),

@@ -38,25 +38,15 @@ pub struct Findings {
 
 /// Checks a case as deserialised, before [`Case::resolve`].
 pub fn validate(case: &Case) -> Findings {
-    let mut checker = Checker {
-        case,
-        problems: Vec::new(),
-    };
+    let mut checker = Checker { case, problems: Vec::new() };
     checker.finite_numbers();
     checker.sections();
     checker.materials();
     checker.boundaries();
     checker.bodies();
     checker.cost();
-    let warnings = if checker.problems.is_empty() {
-        warnings::warnings(case)
-    } else {
-        Vec::new()
-    };
-    Findings {
-        problems: checker.problems,
-        warnings,
-    }
+    let warnings = if checker.problems.is_empty() { warnings::warnings(case) } else { Vec::new() };
+    Findings { problems: checker.problems, warnings }
 }
 
 struct Checker<'a> {
@@ -65,14 +55,7 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    fn problem(
-        &mut self,
-        path: &KeyPath,
-        what: String,
-        value: &impl Serialize,
-        allowed: &str,
-        fix: &str,
-    ) {
+    fn problem(&mut self, path: &KeyPath, what: String, value: &impl Serialize, allowed: &str, fix: &str) {
         self.problems.push(Problem {
             path: path.clone(),
             what,
@@ -116,12 +99,7 @@ impl Checker<'_> {
     fn interval(&mut self, path: &KeyPath, [low, high]: [f64; 2]) {
         if low.is_finite() && high.is_finite() && low >= high {
             let fix = if low > high {
-                format!(
-                    "swap the two: {} = [{}, {}]",
-                    path.last_key(),
-                    text(high),
-                    text(low)
-                )
+                format!("swap the two: {} = [{}, {}]", path.last_key(), text(high), text(low))
             } else {
                 "give the interval a length".to_owned()
             };
@@ -139,17 +117,9 @@ impl Checker<'_> {
         for (index, name) in names.iter().enumerate() {
             let path = list.index(index).key("name");
             if name.trim().is_empty() {
-                self.not_allowed(
-                    &path,
-                    name,
-                    "a name that is not empty",
-                    "give it a name such as \"sand\"",
-                );
+                self.not_allowed(&path, name, "a name that is not empty", "give it a name such as \"sand\"");
             } else if let Some(first) = names[..index].iter().position(|other| other == name) {
-                let fix = format!(
-                    "rename one of them: {} has the same name",
-                    list.index(first)
-                );
+                let fix = format!("rename one of them: {} has the same name", list.index(first));
                 let what = format!("{path} = {} is used twice", toml_text(name));
                 self.problem(&path, what, name, "names that differ", &fix);
             }
@@ -162,13 +132,7 @@ impl Checker<'_> {
             Ok(value) => self.finite_numbers_in(&KeyPath::default(), &value),
             Err(error) => {
                 let what = format!("the case cannot be written as TOML: {error}");
-                self.problem(
-                    &KeyPath::default(),
-                    what,
-                    &"",
-                    "a case that can be written back",
-                    "report this",
-                );
+                self.problem(&KeyPath::default(), what, &"", "a case that can be written back", "report this");
             }
         }
     }
@@ -176,23 +140,13 @@ impl Checker<'_> {
     fn finite_numbers_in(&mut self, path: &KeyPath, value: &toml::Value) {
         match value {
             toml::Value::Float(number) if !number.is_finite() => {
-                self.not_allowed(
-                    path,
-                    number,
-                    "a finite number",
-                    "write a number; nan and inf have no meaning here",
-                );
+                self.not_allowed(path, number, "a finite number", "write a number; nan and inf have no meaning here");
             }
             toml::Value::Array(values) => {
-                values
-                    .iter()
-                    .enumerate()
-                    .for_each(|(i, value)| self.finite_numbers_in(&path.index(i), value));
+                values.iter().enumerate().for_each(|(i, value)| self.finite_numbers_in(&path.index(i), value));
             }
             toml::Value::Table(table) => {
-                table
-                    .iter()
-                    .for_each(|(key, value)| self.finite_numbers_in(&path.key(key), value));
+                table.iter().for_each(|(key, value)| self.finite_numbers_in(&path.key(key), value));
             }
             _ => {}
         }
@@ -201,9 +155,7 @@ impl Checker<'_> {
 
 /// A value as it would be written in the file.
 fn toml_text(value: &impl Serialize) -> String {
-    toml::Value::try_from(value)
-        .map(|value| value.to_string())
-        .unwrap_or_default()
+    toml::Value::try_from(value).map(|value| value.to_string()).unwrap_or_default()
 }
 
 /// A number for a message: six significant digits.

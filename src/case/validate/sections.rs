@@ -20,29 +20,20 @@ impl Checker<'_> {
     fn gravity(&mut self) {
         let gravity = &self.case.gravity;
         let at = KeyPath::top("gravity");
-        self.not_negative(
-            &at.key("magnitude_m_per_s2"),
-            gravity.magnitude_m_per_s2,
-            9.81,
-        );
+        self.not_negative(&at.key("magnitude_m_per_s2"), gravity.magnitude_m_per_s2, 9.81);
         self.angle(&at.key("inclination_deg"), gravity.inclination_deg, 90.0);
         if let Some(settle) = gravity.settle_inclination_deg {
             let path = at.key("settle_inclination_deg");
             self.angle(&path, settle, 90.0);
             let stages = &self.case.stages;
             if stages.tilt.is_none() && settle != gravity.inclination_deg && settle.is_finite() {
-                let allowed = "another angle than inclination_deg only with a [stages.tilt] that turns one into the other";
-                self.not_allowed(
-                    &path,
-                    &settle,
-                    allowed,
-                    "add [stages.tilt] or leave settle_inclination_deg out",
-                );
+                let allowed =
+                    "another angle than inclination_deg only with a [stages.tilt] that turns one into the other";
+                self.not_allowed(&path, &settle, allowed, "add [stages.tilt] or leave settle_inclination_deg out");
             }
         }
         if self.case.stages.settle.is_some() && gravity.magnitude_m_per_s2 == 0.0 {
-            let allowed =
-                "magnitude_m_per_s2 > 0 with [stages.settle]: nothing settles without gravity";
+            let allowed = "magnitude_m_per_s2 > 0 with [stages.settle]: nothing settles without gravity";
             let fix = "leave [stages.settle] out, or give gravity a magnitude";
             self.not_allowed(&at.key("magnitude_m_per_s2"), &0.0, allowed, fix);
         }
@@ -55,21 +46,12 @@ impl Checker<'_> {
         self.positive(&at.key("thickness_m"), grid.thickness_m, 0.2);
         if ![1, 4, 9, 16].contains(&grid.particles_per_cell) {
             let path = at.key("particles_per_cell");
-            self.not_allowed(
-                &path,
-                &grid.particles_per_cell,
-                "1, 4, 9 or 16: squares of 1 to 4",
-                "use 4",
-            );
+            self.not_allowed(&path, &grid.particles_per_cell, "1, 4, 9 or 16: squares of 1 to 4", "use 4");
         }
         let at = KeyPath::top("domain");
         self.interval(&at.key("x_m"), domain.x_m);
         self.interval(&at.key("y_m"), domain.y_m);
-        self.not_negative(
-            &KeyPath::top("side_walls").key("friction"),
-            self.case.side_walls.friction,
-            0.0,
-        );
+        self.not_negative(&KeyPath::top("side_walls").key("friction"), self.case.side_walls.friction, 0.0);
     }
 
     fn stages(&mut self) {
@@ -86,13 +68,7 @@ impl Checker<'_> {
             if stages.settle.is_none() {
                 let what = "stages.tilt is given without stages.settle".to_owned();
                 let allowed = "a tilt follows a settling and uses its damping and residual";
-                self.problem(
-                    &at.key("tilt"),
-                    what,
-                    &"",
-                    allowed,
-                    "add [stages.settle] or leave [stages.tilt] out",
-                );
+                self.problem(&at.key("tilt"), what, &"", allowed, "add [stages.settle] or leave [stages.tilt] out");
             }
         }
         self.positive(&at.key("run").key("end_time_s"), stages.run.end_time_s, 6.0);
@@ -102,31 +78,19 @@ impl Checker<'_> {
         let (gauges, domain) = (&self.case.gauges, &self.case.domain);
         let at = KeyPath::top("gauges");
         for (key, name) in [("barrier", &gauges.barrier), ("base", &gauges.base)] {
-            let names = self
-                .case
-                .boundaries
-                .iter()
-                .map(|boundary| boundary.name.as_str());
+            let names = self.case.boundaries.iter().map(|boundary| boundary.name.as_str());
             if let Some(name) = name
                 && !names.clone().any(|other| other == name)
             {
                 let fix = did_you_mean(name, names);
-                self.not_allowed(
-                    &at.key(key),
-                    name,
-                    "the name of one of [[boundaries]]",
-                    &fix,
-                );
+                self.not_allowed(&at.key(key), name, "the name of one of [[boundaries]]", &fix);
             }
         }
         self.positive(&at.key("sample_rate_hz"), gauges.sample_rate_hz, 1000.0);
         for (index, &station) in gauges.stations_m.iter().enumerate() {
             self.inside(&at.key("stations_m").index(index), station, domain.x_m);
         }
-        let windows = [
-            ("window_x_m", gauges.window_x_m, domain.x_m),
-            ("window_y_m", gauges.window_y_m, domain.y_m),
-        ];
+        let windows = [("window_x_m", gauges.window_x_m, domain.x_m), ("window_y_m", gauges.window_y_m, domain.y_m)];
         for (key, window, limits) in windows {
             let path = at.key(key);
             if let Some(window) = window {
@@ -135,45 +99,22 @@ impl Checker<'_> {
                 self.inside(&path.index(1), window[1], limits);
             } else if gauges.window_x_m.is_some() || gauges.window_y_m.is_some() {
                 let what = format!("{path} is missing");
-                self.problem(
-                    &path,
-                    what,
-                    &"",
-                    "window_x_m and window_y_m together, or neither",
-                    "give both",
-                );
+                self.problem(&path, what, &"", "window_x_m and window_y_m together, or neither", "give both");
             }
         }
         self.field_times();
     }
 
     fn field_times(&mut self) {
-        let (times, end) = (
-            &self.case.gauges.field_times_s,
-            self.case.stages.run.end_time_s,
-        );
+        let (times, end) = (&self.case.gauges.field_times_s, self.case.stages.run.end_time_s);
         let path = KeyPath::top("gauges").key("field_times_s");
         for (index, &time) in times.iter().enumerate() {
             let allowed = format!("0 <= time <= stages.run.end_time_s = {}", text(end));
             let holds = time >= 0.0 && (time <= end || !end.is_finite());
-            self.require(
-                &path.index(index),
-                time,
-                holds,
-                &allowed,
-                "leave this time out, or run longer",
-            );
+            self.require(&path.index(index), time, holds, &allowed, "leave this time out, or run longer");
             if index > 0 && time <= times[index - 1] {
-                let allowed = format!(
-                    "times that increase: the one before is {}",
-                    text(times[index - 1])
-                );
-                self.not_allowed(
-                    &path.index(index),
-                    &time,
-                    &allowed,
-                    "sort the times and remove repeated ones",
-                );
+                let allowed = format!("times that increase: the one before is {}", text(times[index - 1]));
+                self.not_allowed(&path.index(index), &time, &allowed, "sort the times and remove repeated ones");
             }
         }
     }
@@ -183,81 +124,39 @@ impl Checker<'_> {
         if low < high {
             let allowed = format!("inside the domain: from {} to {}", text(low), text(high));
             let holds = (low..=high).contains(&number);
-            self.require(
-                path,
-                number,
-                holds,
-                &allowed,
-                "move it into the domain, or enlarge the domain",
-            );
+            self.require(path, number, holds, &allowed, "move it into the domain, or enlarge the domain");
         }
     }
 
     fn output_and_numerics(&mut self) {
         let (interval, numerics) = (self.case.output.vtk_interval_s, &self.case.numerics);
-        let (end, rate) = (
-            self.case.stages.run.end_time_s,
-            self.case.gauges.sample_rate_hz,
-        );
+        let (end, rate) = (self.case.stages.run.end_time_s, self.case.gauges.sample_rate_hz);
         let path = KeyPath::top("output").key("vtk_interval_s");
         self.not_negative(&path, interval, 0.02);
         if interval > 0.0 && end / interval > MAX_VTK_FILES {
-            let allowed = format!(
-                "at most {MAX_VTK_FILES:e} files; this would write {:.1e}",
-                end / interval
-            );
-            let fix = format!(
-                "use {} or more, or 0 for no files",
-                text(end / MAX_VTK_FILES)
-            );
+            let allowed = format!("at most {MAX_VTK_FILES:e} files; this would write {:.1e}", end / interval);
+            let fix = format!("use {} or more, or 0 for no files", text(end / MAX_VTK_FILES));
             self.not_allowed(&path, &interval, &allowed, &fix);
         }
         if end * rate > MAX_SAMPLES {
-            let allowed = format!(
-                "at most {MAX_SAMPLES:e} samples; this would record {:.1e}",
-                end * rate
-            );
+            let allowed = format!("at most {MAX_SAMPLES:e} samples; this would record {:.1e}", end * rate);
             let fix = format!("use {} or less", text(MAX_SAMPLES / end));
-            self.require(
-                &KeyPath::top("gauges").key("sample_rate_hz"),
-                rate,
-                false,
-                &allowed,
-                &fix,
-            );
+            self.require(&KeyPath::top("gauges").key("sample_rate_hz"), rate, false, &allowed, &fix);
         }
         let at = KeyPath::top("numerics");
         let cfl = numerics.cfl;
-        self.require(
-            &at.key("cfl"),
-            cfl,
-            cfl > 0.0 && cfl <= 1.0,
-            "0 < cfl <= 1",
-            "use a value such as 0.3",
-        );
+        self.require(&at.key("cfl"), cfl, cfl > 0.0 && cfl <= 1.0, "0 < cfl <= 1", "use a value such as 0.3");
         if let Some(fraction) = numerics.pic_fraction {
             let holds = (0.0..=1.0).contains(&fraction);
             let allowed = "0 <= pic_fraction <= 1";
-            self.require(
-                &at.key("pic_fraction"),
-                fraction,
-                holds,
-                allowed,
-                "use a value such as 5.0e-4",
-            );
+            self.require(&at.key("pic_fraction"), fraction, holds, allowed, "use a value such as 5.0e-4");
         }
         if let Some(rate) = numerics.pic_rate_per_s {
             let path = at.key("pic_rate_per_s");
             self.not_negative(&path, rate, 5.0);
             if numerics.pic_fraction.is_some() {
                 let what = "pic_fraction and pic_rate_per_s are both given".to_owned();
-                self.problem(
-                    &path,
-                    what,
-                    &rate,
-                    "one of the two: they set the same thing",
-                    "remove one of them",
-                );
+                self.problem(&path, what, &rate, "one of the two: they set the same thing", "remove one of them");
             }
         }
         if let Some(step) = numerics.max_time_step_s {

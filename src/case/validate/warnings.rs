@@ -27,10 +27,7 @@ impl Warnings {
 
     fn radians(&mut self, path: &KeyPath, angle: Option<f64>) {
         let Some(angle) = angle else { return };
-        let fix = format!(
-            "if the angle is in radians, write {} degrees",
-            text(angle.to_degrees())
-        );
+        let fix = format!("if the angle is in radians, write {} degrees", text(angle.to_degrees()));
         let holds = angle > 0.0 && angle < RADIANS_UP_TO;
         self.add_if(holds, path, angle, "angles are in degrees", &fix);
     }
@@ -38,61 +35,28 @@ impl Warnings {
     fn material(&mut self, at: &KeyPath, material: &Material) {
         let young = material.young_pa;
         let fix = format!("if the value is in MPa, write {}", text(young * 1.0e6));
-        self.add_if(
-            young < 1.0e3,
-            &at.key("young_pa"),
-            young,
-            "Pa; soils have 1e5 to 1e9",
-            &fix,
-        );
+        self.add_if(young < 1.0e3, &at.key("young_pa"), young, "Pa; soils have 1e5 to 1e9", &fix);
 
         let density = material.density_kg_per_m3;
         let fix = if density < 100.0 {
-            format!(
-                "if the value is in g/cm^3 or t/m^3, write {}",
-                text(density * 1000.0)
-            )
+            format!("if the value is in g/cm^3 or t/m^3, write {}", text(density * 1000.0))
         } else {
             "check the unit".to_owned()
         };
         let holds = !(100.0..=20000.0).contains(&density);
-        self.add_if(
-            holds,
-            &at.key("density_kg_per_m3"),
-            density,
-            "kg/m^3; dry sand has about 1500",
-            &fix,
-        );
+        self.add_if(holds, &at.key("density_kg_per_m3"), density, "kg/m^3; dry sand has about 1500", &fix);
 
         if let Some(law) = material.drucker_prager() {
             let friction = law.friction_angle_deg;
-            let fix = format!(
-                "if the angle is in radians, write {} degrees",
-                text(friction.to_degrees())
-            );
+            let fix = format!("if the angle is in radians, write {} degrees", text(friction.to_degrees()));
             let holds = friction > 0.0 && friction < 1.0;
-            self.add_if(
-                holds,
-                &at.key("friction_angle_deg"),
-                friction,
-                "degrees; sand has about 30",
-                &fix,
-            );
+            self.add_if(holds, &at.key("friction_angle_deg"), friction, "degrees; sand has about 30", &fix);
 
             let apex = law.cohesion_pa / friction.to_radians().tan();
             let holds = friction > 0.0 && law.tension_cutoff_pa > apex * (1.0 + 1.0e-9);
-            let expected = format!(
-                "at most the apex of the cone, cohesion / tan(friction angle) = {} Pa",
-                text(apex)
-            );
+            let expected = format!("at most the apex of the cone, cohesion / tan(friction angle) = {} Pa", text(apex));
             let fix = "lower it, or raise cohesion_pa: above the apex it has no effect";
-            self.add_if(
-                holds,
-                &at.key("tension_cutoff_pa"),
-                law.tension_cutoff_pa,
-                &expected,
-                fix,
-            );
+            self.add_if(holds, &at.key("tension_cutoff_pa"), law.tension_cutoff_pa, &expected, fix);
         }
     }
 }
@@ -103,10 +67,7 @@ impl Warnings {
         let Some(Shape::Wall(wall) | Shape::Gate(wall, _)) = boundary.shape(&case.grid) else {
             return;
         };
-        let Domain {
-            x_m: [left, right],
-            y_m: [low, high],
-        } = case.domain;
+        let Domain { x_m: [left, right], y_m: [low, high] } = case.domain;
         let domain = [[left, low], [right, low], [right, high], [left, high]];
         if penetration_of_rectangle(&wall.corners_m(), &domain).depth_m <= 0.0 {
             self.0.push(Problem {
@@ -123,14 +84,8 @@ impl Warnings {
 pub(super) fn warnings(case: &Case) -> Vec<Problem> {
     let mut warnings = Warnings(Vec::new());
     let gravity = KeyPath::top("gravity");
-    warnings.radians(
-        &gravity.key("inclination_deg"),
-        Some(case.gravity.inclination_deg),
-    );
-    warnings.radians(
-        &gravity.key("settle_inclination_deg"),
-        case.gravity.settle_inclination_deg,
-    );
+    warnings.radians(&gravity.key("inclination_deg"), Some(case.gravity.inclination_deg));
+    warnings.radians(&gravity.key("settle_inclination_deg"), case.gravity.settle_inclination_deg);
     for (name, material) in &case.materials {
         warnings.material(&KeyPath::top("materials").key(name), material);
     }
@@ -139,25 +94,15 @@ pub(super) fn warnings(case: &Case) -> Vec<Problem> {
         warnings.radians(&at.key("normal_deg"), boundary.normal_deg);
         warnings.radians(&at.key("inclination_deg"), boundary.inclination_deg);
         if let Some(friction) = boundary.friction {
-            let fix = format!(
-                "if it is an angle, write its tangent, {}",
-                text(friction.to_radians().tan())
-            );
-            warnings.add_if(
-                friction > 2.0,
-                &at.key("friction"),
-                friction,
-                "a coefficient, not an angle",
-                &fix,
-            );
+            let fix = format!("if it is an angle, write its tangent, {}", text(friction.to_radians().tan()));
+            warnings.add_if(friction > 2.0, &at.key("friction"), friction, "a coefficient, not an angle", &fix);
         }
         warnings.outside(&at, case, boundary);
     }
     if let Some(tilt) = &case.stages.tilt {
         let turn = case.gravity.inclination_deg - case.gravity.settle_inclination_or_default_deg();
         let path = KeyPath::top("stages").key("tilt").key("duration_s");
-        let expected =
-            "a tilt from gravity.settle_inclination_deg to another gravity.inclination_deg";
+        let expected = "a tilt from gravity.settle_inclination_deg to another gravity.inclination_deg";
         let fix = "give settle_inclination_deg, or leave [stages.tilt] out";
         warnings.add_if(turn == 0.0, &path, tilt.duration_s, expected, fix);
     }

@@ -1,0 +1,94 @@
+//! The command line: thin.
+
+mod check;
+mod progress;
+mod run;
+
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Exit code when the input is at fault, and nothing was computed.
+const BAD_INPUT: u8 = 2;
+/// Exit code when a run failed or was stopped; what was computed is in its folder.
+const ENDED_EARLY: u8 = 3;
+
+/// Force of dry granular flow on barriers, by the material point method.
+///
+/// A case file (TOML) says what to run; a run leaves tables (CSV), ParaView files (VTK) and figures (SVG) in a folder.
+#[derive(Debug, Parser)]
+#[command(
+    version,
+    max_term_width = 110,
+    after_help = "\
+Start here:
+  checkdam check validation/flume/40deg.toml     what would run, and how long it would take
+  checkdam run   validation/flume/40deg.toml     run it into out/40deg
+The comments in validation/flume/40deg.toml explain every field of a case file.
+
+Exit codes: 0 done, 2 the input is at fault (nothing was written), 3 the run failed or was stopped (what was computed is there)."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a case and write its results.
+    ///
+    /// The folder holds summary.toml (start there), history.csv, energy.csv, momentum.csv, pressure_profile.csv and more,
+    /// flow.pvd for ParaView, and figures. Ctrl-C ends the run in order: everything computed until then is kept.
+    Run {
+        /// The case file.
+        #[arg(value_name = "CASE.toml")]
+        case: PathBuf,
+        /// Folder for the results; must be new or empty [default: out/<name of the case file>]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Threads; any number gives the same results to the last bit [default: all processors]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+    },
+    /// Validate a case and say what would run, without running it.
+    Check {
+        /// The case file.
+        #[arg(value_name = "CASE.toml")]
+        case: PathBuf,
+        /// Threads to estimate the time for [default: all processors]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+    },
+}
+
+/// Parses the command line and does what it says.
+pub fn main() -> ExitCode {
+    match Cli::parse().command {
+        Command::Run { case, out, threads } => run::run(&case, out, threads),
+        Command::Check { case, threads } => check::check(&case, threads),
+    }
+}
+
+/// Loads a case; prints warnings, or the error.
+fn load(path: &std::path::Path) -> Result<checkdam::case::Case, ExitCode> {
+    match checkdam::case::load(path) {
+        Ok(loaded) => {
+            for warning in &loaded.warnings {
+                eprintln!("{}\n", warning.trim_end());
+            }
+            Ok(loaded.case)
+        }
+        Err(error) => {
+            eprintln!("{}", error.to_string().trim_end());
+            Err(ExitCode::from(BAD_INPUT))
+        }
+    }
+}
+
+/// Sets the number of threads for everything that follows.
+fn use_threads(threads: Option<u16>) {
+    if let Some(n) = threads {
+        // Fails only if a pool was made before, which nothing does.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n)).build_global();
+    }
+}

@@ -1,0 +1,98 @@
+//! Progress of a run: a bar on a terminal, plain lines elsewhere.
+
+use checkdam::run::{Progress, Stage};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
+
+/// Steps of the bar.
+const TICKS: u64 = 1000;
+/// Time between plain lines.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
+
+/// Shows how far a run is.
+pub struct Display {
+    bar: Option<ProgressBar>,
+    stage: Option<Stage>,
+    stage_start: Instant,
+    stage_first_step: u64,
+    last: Instant,
+}
+
+impl Display {
+    /// A display on the standard error stream.
+    pub fn new() -> Self {
+        let bar = stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new(TICKS);
+            if let Ok(style) = ProgressStyle::with_template("{prefix:>7} [{bar:30}] {msg}") {
+                bar.set_style(style.progress_chars("=> "));
+            }
+            bar
+        });
+        let now = Instant::now();
+        Self {
+            bar,
+            stage: None,
+            stage_start: now,
+            stage_first_step: 0,
+            last: now.checked_sub(LINE_INTERVAL).unwrap_or(now),
+        }
+    }
+
+    /// Shows `p`; called often, draws seldom.
+    pub fn show(&mut self, p: &Progress) {
+        let now = Instant::now();
+        let new_stage = self.stage != Some(p.stage);
+        if new_stage {
+            self.stage = Some(p.stage);
+            self.stage_start = now;
+            self.stage_first_step = p.steps;
+        }
+        let interval = if self.bar.is_some() { Duration::from_millis(100) } else { LINE_INTERVAL };
+        if !new_stage && now - self.last < interval {
+            return;
+        }
+        self.last = now;
+        let seconds = (now - self.stage_start).as_secs_f64();
+        let share = (p.time / p.end).clamp(0.0, 1.0);
+        let rate = if seconds > 0.0 { (p.steps - self.stage_first_step) as f64 / seconds } else { 0.0 };
+        let left = if share > 0.0 && seconds > 0.5 { remaining(seconds * (1.0 - share) / share) } else { "?".into() };
+        let text = match p.stage {
+            Stage::Settle => format!("t {:.3} s, residual {:.1e}, {:.0} steps/s", p.time, p.residual, rate),
+            Stage::Tilt => format!("t {:.3} of {:.3} s, {:.0} steps/s, {left} left", p.time, p.end, rate),
+            Stage::Run => format!(
+                "t {:.3} of at most {:.3} s, force {:.1} N, kinetic {:.2} % of E0, {:.0} steps/s, at most {left} left",
+                p.time,
+                p.end,
+                p.force,
+                100.0 * p.residual,
+                rate
+            ),
+        };
+        match &self.bar {
+            Some(bar) => {
+                bar.set_prefix(p.stage.name());
+                bar.set_position((share * TICKS as f64) as u64);
+                bar.set_message(text);
+            }
+            None => eprintln!("{:>7}: {text}", p.stage.name()),
+        }
+    }
+
+    /// Removes the bar.
+    pub fn clear(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// A time in words.
+pub fn remaining(seconds: f64) -> String {
+    match seconds {
+        s if s < 90.0 => format!("{s:.0} s"),
+        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}

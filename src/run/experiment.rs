@@ -1,0 +1,433 @@
+//! The stages of a run and the gauges that are read in it.
+
+use super::ProgressFn;
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
+use super::scene;
+use crate::case::Case;
+use crate::gauge::{BarrierGauge, flow, layers};
+use crate::output::OutputError;
+use crate::plot::PlotError;
+use crate::simulation::{Simulation, StepFailure};
+use crate::timestep::TimeStep;
+
+/// Steps between calls of the progress function and looks at the residual.
+const STEPS_PER_LOOK: u64 = 25;
+/// Samples per row of the ledgers and stations.
+const SAMPLES_PER_LEDGER: u64 = 10;
+/// Kinetic energy over the energy released, below which the material counts as at rest.
+const REST_ENERGY: f64 = 1e-4;
+/// Largest change of the mean force between two windows at rest, as a share of it.
+const REST_FORCE: f64 = 0.01;
+/// Largest mean unbalanced force in a window at rest, as a share of the weight.
+const REST_IMBALANCE: f64 = 2e-3;
+/// Length of these windows, s; three of them give the static force.
+const REST_WINDOW: f64 = 0.1;
+/// Time after release before which nothing counts as rest, s.
+const REST_NOT_BEFORE: f64 = 0.5;
+
+/// A stage of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Coming to rest behind the gate.
+    Settle,
+    /// The flume is being tilted.
+    Tilt,
+    /// The gate is open.
+    Run,
+}
+
+impl Stage {
+    /// In one word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Settle => "settle",
+            Stage::Tilt => "tilt",
+            Stage::Run => "run",
+        }
+    }
+}
+
+/// How far a run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Stage.
+    pub stage: Stage,
+    /// Time within the stage, s.
+    pub time: f64,
+    /// Longest the stage can last, s.
+    pub end: f64,
+    /// Steps since the start of the first stage.
+    pub steps: u64,
+    /// Material points.
+    pub particles: usize,
+    /// Normal force on the barrier now, N.
+    pub force: f64,
+    /// Settling: residual; run: kinetic energy over the energy at release.
+    pub residual: f64,
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The material came to rest.
+    Rest,
+    /// The end time was reached.
+    Time,
+    /// The user stopped it.
+    Stopped,
+}
+
+/// What can go wrong in a run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The simulation failed.
+    #[error("the simulation failed: {0}")]
+    Step(#[from] StepFailure),
+    /// The material did not settle.
+    #[error(
+        "the material did not settle: after {time} s the residual is {residual:.3e}, wanted {wanted:.3e}\n  \
+         raise stages.settle.max_time_s or stages.settle.damping_per_s, or accept a larger stages.settle.residual"
+    )]
+    Unsettled {
+        /// Time allowed, s.
+        time: f64,
+        /// Residual reached.
+        residual: f64,
+        /// Residual wanted.
+        wanted: f64,
+    },
+    /// A file could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A figure could not be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+}
+
+/// Facts of the stages before the release, and of the stepping.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct StageFacts {
+    /// Time spent settling and tilting, s.
+    pub settle_time: f64,
+    /// Steps spent settling and tilting.
+    pub settle_steps: u64,
+    /// Residual at release.
+    pub settle_residual: f64,
+    /// Shortest and longest time step after release, s.
+    pub time_step: [f64; 2],
+    /// Steps after release.
+    pub run_steps: u64,
+    /// What limited the shortest time step.
+    pub shortest: Option<TimeStep>,
+    /// Time at the end, s after release.
+    pub end_time: f64,
+}
+
+/// A simulation with its stages and gauges.
+#[derive(Debug)]
+pub struct Experiment {
+    case: Case,
+    simulation: Simulation,
+    barrier: Option<BarrierGauge>,
+    base: Option<usize>,
+    base_impulse: [f64; 2],
+    facts: StageFacts,
+    stopped: bool,
+    scratch_front: Vec<(f64, f64, f64, f64)>,
+    scratch_speed: Vec<f64>,
+}
+
+impl Experiment {
+    /// Sets up a case that has passed validation.
+    pub fn new(case: &Case) -> Self {
+        let simulation = Simulation::new(scene::build(case));
+        let find = |name: &Option<String>| name.as_ref().and_then(|n| simulation.boundary_index(n));
+        let barrier = find(&case.gauges.barrier).map(|b| BarrierGauge::new(&simulation, b));
+        let base = find(&case.gauges.base);
+        Self {
+            case: case.clone(),
+            simulation,
+            barrier,
+            base,
+            base_impulse: [0.0; 2],
+            facts: StageFacts::default(),
+            stopped: false,
+            scratch_front: Vec::new(),
+            scratch_speed: Vec::new(),
+        }
+    }
+
+    /// The simulation.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The gauge on the barrier.
+    pub fn barrier(&self) -> Option<&BarrierGauge> {
+        self.barrier.as_ref()
+    }
+
+    /// Index of the base.
+    pub fn base(&self) -> Option<usize> {
+        self.base
+    }
+
+    /// Gauges of the case.
+    pub fn gauges(&self) -> &crate::case::Gauges {
+        &self.case.gauges
+    }
+
+    /// Time between VTK frames, s; 0 for none.
+    pub fn vtk_interval(&self) -> f64 {
+        self.case.output.vtk_interval_s
+    }
+
+    /// Facts of the stages.
+    pub fn facts(&self) -> &StageFacts {
+        &self.facts
+    }
+
+    /// Level at which gravitational energy is zero: the barrier's foot, else the origin.
+    pub fn datum(&self) -> [f64; 2] {
+        self.barrier.as_ref().map_or([0.0; 2], |g| self.simulation.boundaries()[g.boundary()].foot().into())
+    }
+
+    /// All stages.
+    pub fn run(&mut self, recorder: &mut dyn Recorder, progress: &mut ProgressFn) -> Result<End, RunError> {
+        self.prepare(progress)?;
+        self.release();
+        if self.stopped { Ok(End::Stopped) } else { self.flow(recorder, progress) }
+    }
+
+    /// Settles and tilts.
+    pub fn prepare(&mut self, progress: &mut ProgressFn) -> Result<(), RunError> {
+        let Some(settle) = self.case.stages.settle.clone() else { return Ok(()) };
+        self.simulation.set_damping(settle.damping_per_s);
+        self.settle(progress)?;
+        if let Some(tilt) = self.case.stages.tilt.clone() {
+            let from = self.case.gravity.settle_inclination_or_default_deg();
+            let to = self.case.gravity.inclination_deg;
+            let start = self.simulation.time();
+            while !self.stopped && self.simulation.time() < start + tilt.duration_s {
+                let share = (self.simulation.time() - start) / tilt.duration_s;
+                self.simulation.set_gravity(scene::gravity(&self.case, from + share * (to - from)));
+                self.simulation.step()?;
+                self.look(Stage::Tilt, start, tilt.duration_s, 0.0, progress);
+            }
+            self.simulation.set_gravity(scene::gravity(&self.case, to));
+            self.settle(progress)?;
+        }
+        self.simulation.set_damping(0.0);
+        Ok(())
+    }
+
+    /// Steps until the residual has stayed below its limit for one period of the body's slowest oscillation.
+    fn settle(&mut self, progress: &mut ProgressFn) -> Result<(), RunError> {
+        let Some(settle) = self.case.stages.settle.clone() else { return Ok(()) };
+        let height = self.case.bodies.iter().map(|b| b.size_m()[1]).fold(0.0, f64::max);
+        let slowest = self.simulation.bodies().iter().map(|b| b.p_wave_speed()).fold(f64::INFINITY, f64::min);
+        let period = 4.0 * height / slowest;
+        let scale = (self.case.gravity.magnitude_m_per_s2 * height).sqrt();
+        let start = self.simulation.time();
+        let mut last_above = start;
+        let mut residual = f64::INFINITY;
+        while !self.stopped && self.simulation.time() - last_above < period {
+            self.simulation.step()?;
+            if self.simulation.steps().is_multiple_of(STEPS_PER_LOOK) {
+                let stock = self.simulation.stock();
+                residual = (2.0 * stock.kinetic / stock.mass).sqrt() / scale;
+                if residual > settle.residual {
+                    last_above = self.simulation.time();
+                }
+            }
+            if self.simulation.time() - start > settle.max_time_s && residual > settle.residual {
+                return Err(RunError::Unsettled { time: settle.max_time_s, residual, wanted: settle.residual });
+            }
+            self.look(Stage::Settle, start, settle.max_time_s, residual, progress);
+        }
+        self.facts.settle_residual = residual;
+        Ok(())
+    }
+
+    fn look(&mut self, stage: Stage, start: f64, end: f64, residual: f64, progress: &mut ProgressFn) {
+        let sim = &self.simulation;
+        if !sim.steps().is_multiple_of(STEPS_PER_LOOK) {
+            return;
+        }
+        let force = self.barrier.as_ref().map_or(0.0, |g| {
+            let b = &sim.boundaries()[g.boundary()];
+            let t = &sim.step_tallies()[g.boundary()];
+            (t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y) / sim.time_step().dt
+        });
+        let (time, steps, particles) = (sim.time() - start, sim.steps(), sim.particle_count());
+        let go_on = progress(&Progress { stage, time, end, steps, particles, force, residual });
+        self.stopped |= !go_on;
+    }
+
+    /// Opens the gates and the ledger, and starts the clock.
+    pub fn release(&mut self) -> &Simulation {
+        self.facts.settle_time = self.simulation.time();
+        self.facts.settle_steps = self.simulation.steps();
+        self.simulation.set_time(0.0);
+        self.simulation.open_ledger();
+        self.simulation.release_gates();
+        &self.simulation
+    }
+
+    fn flow(&mut self, recorder: &mut dyn Recorder, progress: &mut ProgressFn) -> Result<End, RunError> {
+        let run = self.case.stages.run.clone();
+        let energy = self.simulation.energy_balance(self.simulation.opening(), self.datum());
+        let released = energy.initial.abs().max(f64::MIN_POSITIVE);
+        let interval = 1.0 / self.case.gauges.sample_rate_hz;
+        let frames = self.case.output.vtk_interval_s;
+        let mut fields = self.case.gauges.field_times_s.clone().into_iter().peekable();
+        let mut rest = RestWatch::default();
+        let (mut samples, mut frame) = (0u64, 0u64);
+        self.facts.time_step = [f64::INFINITY, 0.0];
+        self.record_ledgers(recorder)?;
+        loop {
+            let time = self.simulation.time();
+            while fields.next_if(|t| time >= *t).is_some() {
+                recorder.field(time, &flow::velocity_field(&self.simulation))?;
+            }
+            if frames > 0.0 && time >= frame as f64 * frames {
+                recorder.frame(&self.simulation)?;
+                self.record_profile(time, recorder)?;
+                frame = (time / frames) as u64 + 1;
+            }
+            if time >= run.end_time_s || self.stopped || (run.stop_at_rest && rest.at_rest) {
+                self.facts.end_time = time;
+                if fields.peek().is_some() {
+                    recorder.field(time, &flow::velocity_field(&self.simulation))?;
+                }
+                return Ok(match () {
+                    () if self.stopped => End::Stopped,
+                    () if rest.at_rest => End::Rest,
+                    () => End::Time,
+                });
+            }
+            self.simulation.step()?;
+            self.read_step();
+            if self.simulation.time() >= (samples + 1) as f64 * interval {
+                samples = (self.simulation.time() / interval) as u64;
+                let row = self.sample();
+                recorder.history(&row)?;
+                let stock = self.simulation.stock();
+                let weight = stock.mass * self.case.gravity.magnitude_m_per_s2;
+                rest.watch(&row, stock.momentum, interval, released, weight);
+                if samples.is_multiple_of(SAMPLES_PER_LEDGER) {
+                    self.record_ledgers(recorder)?;
+                }
+            }
+            let share = rest.kinetic / released;
+            self.look(Stage::Run, 0.0, run.end_time_s, share, progress);
+        }
+    }
+
+    fn read_step(&mut self) {
+        let sim = &self.simulation;
+        let step = sim.time_step();
+        self.facts.run_steps += 1;
+        self.facts.time_step[1] = self.facts.time_step[1].max(step.dt);
+        if step.dt < self.facts.time_step[0] {
+            self.facts.time_step[0] = step.dt;
+            self.facts.shortest = Some(step);
+        }
+        if let Some(gauge) = &mut self.barrier {
+            gauge.after_step(sim);
+        }
+        if let Some(base) = self.base {
+            let (b, t) = (&sim.boundaries()[base], &sim.step_tallies()[base]);
+            self.base_impulse[0] += t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y;
+            self.base_impulse[1] += t.impulse[0] * b.tangent.x + t.impulse[1] * b.tangent.y;
+        }
+    }
+
+    fn sample(&mut self) -> HistoryRow {
+        let sim = &self.simulation;
+        let mut row = HistoryRow {
+            time: sim.time(),
+            kinetic: sim.stock().kinetic,
+            time_step: sim.time_step().dt,
+            front: flow::front(sim, &mut self.scratch_front),
+            penetration: flow::penetration(sim).0,
+            ..HistoryRow::default()
+        };
+        if let Some(gauge) = &mut self.barrier {
+            let force = gauge.sample();
+            row.normal = force.normal;
+            row.tangential = force.tangential;
+            row.moment = force.moment;
+            row.normal_max = force.normal_max;
+            row.layers = layers::normal_force(sim, gauge.boundary());
+            let wall = flow::wall_state(sim, gauge.boundary());
+            row.run_up = wall.run_up;
+            row.overtopped = wall.overtopped;
+            if self.base.is_some() && force.duration > 0.0 {
+                row.base_normal = self.base_impulse[0] / force.duration;
+                row.base_friction = self.base_impulse[1] / force.duration;
+                self.base_impulse = [0.0; 2];
+            }
+        }
+        if let (Some(x), Some(y)) = (self.case.gauges.window_x_m, self.case.gauges.window_y_m) {
+            let speed = flow::window_speed(sim, &flow::Window { x, y }, &mut self.scratch_speed);
+            row.window_speed = [speed.0, speed.1];
+        }
+        row
+    }
+
+    fn record_ledgers(&mut self, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
+        let sim = &self.simulation;
+        let now = sim.stock();
+        let balance = sim.energy_balance(&now, self.datum());
+        recorder.energy(&EnergyRow { time: sim.time(), balance })?;
+        recorder.momentum(&MomentumRow::new(sim.time(), sim.ledger(), sim.opening(), &now))?;
+        let at = &self.case.gauges.stations_m;
+        if !at.is_empty() {
+            let rows = flow::stations(sim, at);
+            let rows: Vec<_> = at.iter().zip(rows).map(|(&x, (depth, velocity))| (x, depth, velocity)).collect();
+            recorder.stations(sim.time(), &rows)?;
+        }
+        Ok(())
+    }
+
+    fn record_profile(&mut self, time: f64, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
+        let thickness = self.simulation.thickness();
+        match &mut self.barrier {
+            Some(gauge) if time > 0.0 => recorder.profile(time, &gauge.profile(thickness)),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Decides whether the material is at rest: little kinetic energy, balanced forces, and a force that no longer changes.
+#[derive(Debug, Default)]
+struct RestWatch {
+    kinetic: f64,
+    window: Vec<f64>,
+    last_mean: Option<f64>,
+    momentum: [f64; 2],
+    quiet: usize,
+    at_rest: bool,
+}
+
+impl RestWatch {
+    fn watch(&mut self, row: &HistoryRow, momentum: [f64; 2], interval: f64, released: f64, weight: f64) {
+        self.kinetic = row.kinetic;
+        self.window.push(row.normal);
+        let length = self.window.len() as f64 * interval;
+        if length < REST_WINDOW {
+            return;
+        }
+        let mean = self.window.iter().sum::<f64>() / self.window.len() as f64;
+        self.window.clear();
+        let steady = self.last_mean.is_some_and(|last| (mean - last).abs() <= REST_FORCE * mean.abs().max(1e-9));
+        let change = (momentum[0] - self.momentum[0]).hypot(momentum[1] - self.momentum[1]);
+        let balanced = change <= REST_IMBALANCE * weight * length;
+        self.last_mean = Some(mean);
+        self.momentum = momentum;
+        let slow = row.kinetic <= REST_ENERGY * released;
+        self.quiet = if slow && balanced && steady && row.time >= REST_NOT_BEFORE { self.quiet + 1 } else { 0 };
+        self.at_rest = self.quiet >= 3;
+    }
+}

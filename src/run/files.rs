@@ -1,0 +1,331 @@
+//! The output folder of a run.
+//!
+//! Tables grow while the run goes on; VTK frames and the collection that lists them appear by rename. Whatever ends the run,
+//! what was computed until then is there and readable, and `summary.toml` says how it ended. Nothing in the folder depends
+//! on the wall clock, the number of threads or the place of the folder: the same case gives the same bytes.
+
+use super::ProgressFn;
+use super::experiment::{Experiment, RunError};
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
+use super::summary::Summary;
+use crate::boundary::{Boundary, Solid};
+use crate::case::Case;
+use crate::gauge::flow::FieldCell;
+use crate::output::{self, Field, OutputError, Polyline, PvdWriter, TableWriter, Values};
+use crate::plot::{self, PlotError, force_time::ReferenceLine};
+use crate::simulation::Simulation;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Makes sure that `directory` exists, is empty and can be written.
+///
+/// # Errors
+/// In words: what is wrong and what to do.
+pub fn prepare_directory(directory: &Path) -> Result<(), String> {
+    let shown = directory.display();
+    if directory.exists() && !directory.is_dir() {
+        return Err(format!("{shown} is a file; --out names a folder"));
+    }
+    if directory.is_dir() {
+        let mut entries = fs::read_dir(directory).map_err(|e| format!("cannot look into {shown}: {e}"))?;
+        if entries.next().is_some() {
+            return Err(format!(
+                "{shown} exists and is not empty; results are never mixed or overwritten: choose another folder with --out, \
+                 or move or delete this one"
+            ));
+        }
+    }
+    fs::create_dir_all(directory)
+        .map_err(|e| format!("cannot create {shown}: {e}; choose another folder with --out"))?;
+    let probe = directory.join(".checkdam-probe");
+    fs::write(&probe, b"checkdam")
+        .and_then(|()| fs::remove_file(&probe))
+        .map_err(|e| format!("cannot write into {shown}: {e}; choose another folder with --out"))
+}
+
+/// Runs a case into an empty folder; returns what was recorded.
+///
+/// # Errors
+/// What stopped the run; the folder then holds what was computed.
+pub fn run_into(
+    case: &Case,
+    directory: &Path,
+    progress: &mut ProgressFn,
+) -> Result<(Experiment, Records, Summary), RunError> {
+    let mut experiment = Experiment::new(case);
+    let mut folder = Folder::create(directory, &experiment)?;
+    let end = experiment.run(&mut folder, progress);
+    let closed = folder.close();
+    let summary = match &end {
+        Ok(end) => Summary::new(case, &experiment, &folder.records, *end),
+        Err(error) => Summary::failed(case, &experiment, &folder.records, &error.to_string()),
+    };
+    output::write_text(directory.join("summary.toml"), &summary.to_toml())?;
+    end?;
+    closed?;
+    draw_figures(case, directory, &summary)?;
+    Ok((experiment, folder.records, summary))
+}
+
+/// Draws all figures of a finished run from its tables.
+///
+/// # Errors
+/// The first figure that could not be drawn.
+pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<(), PlotError> {
+    let at = |name: &str| directory.join(name);
+    if case.gauges.barrier.is_some() {
+        let mut lines = Vec::new();
+        if let Some(forces) = &summary.deposit {
+            lines.push(ReferenceLine {
+                label: "m g (sin - mu cos), base friction fully mobilised up the flume".into(),
+                value_n: forces.theoretical_static_force_n,
+            });
+        }
+        plot::force_time::draw(at("history.csv"), &lines, at("force_time.svg"))?;
+        plot::pressure_profile::draw(at("pressure_profile.csv"), at("pressure_profile.svg"))?;
+    }
+    if summary.energy.initial_j > 0.0 {
+        plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg"))?;
+    }
+    if !case.gauges.field_times_s.is_empty() {
+        plot::flow_snapshots::draw(
+            at("field.csv"),
+            at("geometry.csv"),
+            case.gravity.inclination_deg,
+            at("flow_snapshots.svg"),
+        )?;
+    }
+    Ok(())
+}
+
+/// The open tables of a run.
+struct Folder {
+    directory: PathBuf,
+    history: TableWriter,
+    energy: TableWriter,
+    momentum: TableWriter,
+    stations: Option<TableWriter>,
+    profile: Option<TableWriter>,
+    field: Option<TableWriter>,
+    frames: Option<PvdWriter>,
+    frame_count: usize,
+    records: Records,
+}
+
+impl Folder {
+    fn create(directory: &Path, experiment: &Experiment) -> Result<Self, OutputError> {
+        let sim = experiment.simulation();
+        let gauges = experiment.gauges();
+        let names: Vec<String> = sim.boundaries().iter().map(|b| column_name(&b.name)).collect();
+        let table = |name: &str, columns: &[String]| TableWriter::create(directory.join(name), columns);
+        let fixed = |columns: &[&str]| columns.iter().map(ToString::to_string).collect::<Vec<_>>();
+        let optional =
+            |wanted: bool, name: &str, columns: &[&str]| wanted.then(|| table(name, &fixed(columns))).transpose();
+        let has_barrier = experiment.barrier().is_some();
+        let frames = if experiment.vtk_interval() > 0.0 {
+            let frames = directory.join("vtk");
+            fs::create_dir_all(&frames).map_err(|source| OutputError::Create { path: frames, source })?;
+            write_geometry_vtk(directory, sim)?;
+            Some(PvdWriter::create(directory.join("flow.pvd"))?)
+        } else {
+            None
+        };
+        write_geometry_table(directory, sim)?;
+        Ok(Self {
+            directory: directory.to_path_buf(),
+            history: table("history.csv", &fixed(&HistoryRow::COLUMNS))?,
+            energy: table("energy.csv", &energy_columns(&names))?,
+            momentum: table("momentum.csv", &momentum_columns(&names))?,
+            stations: optional(
+                !gauges.stations_m.is_empty(),
+                "stations.csv",
+                &["time_s", "x_m", "depth_m", "velocity_m_per_s"],
+            )?,
+            profile: optional(has_barrier, "pressure_profile.csv", &["time_s", "height_m", "pressure_pa"])?,
+            field: optional(
+                !gauges.field_times_s.is_empty(),
+                "field.csv",
+                &[
+                    "time_s",
+                    "x_m",
+                    "y_m",
+                    "solid_fraction",
+                    "velocity_x_m_per_s",
+                    "velocity_y_m_per_s",
+                    "speed_m_per_s",
+                ],
+            )?,
+            frames,
+            frame_count: 0,
+            records: Records::default(),
+        })
+    }
+
+    fn close(&mut self) -> Result<(), OutputError> {
+        self.history.flush()?;
+        self.energy.flush()?;
+        self.momentum.flush()?;
+        for table in [&mut self.stations, &mut self.profile, &mut self.field].into_iter().flatten() {
+            table.flush()?;
+        }
+        Ok(())
+    }
+}
+
+impl Recorder for Folder {
+    fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError> {
+        self.records.history(row)?;
+        self.history.row(&row.values())
+    }
+
+    fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError> {
+        self.records.energy(row)?;
+        let e = &row.balance;
+        let mut values = vec![row.time, e.kinetic, e.gravitational, e.elastic, e.plastic];
+        values.extend(&e.friction);
+        values.extend(&e.contact);
+        values.extend([e.pic, e.damping, e.side_walls, e.outflow, e.residual]);
+        self.energy.row(&values)
+    }
+
+    fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError> {
+        self.records.momentum(row)?;
+        let l = &row.ledger;
+        let mut values = vec![row.time];
+        values.extend(row.gained);
+        values.extend(l.gravity);
+        for boundary in &l.boundaries {
+            values.extend(boundary.impulse);
+        }
+        values.extend(l.damping.impulse);
+        values.extend(l.side_walls.impulse);
+        values.extend(l.departed_momentum.map(|p| -p));
+        values.extend(row.residual);
+        self.momentum.row(&values)?;
+        // Once per ledger row everything is on disk.
+        self.close()
+    }
+
+    fn stations(&mut self, time: f64, rows: &[(f64, f64, f64)]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.stations else { return Ok(()) };
+        rows.iter().try_for_each(|&(x, depth, velocity)| table.row(&[time, x, depth, velocity]))
+    }
+
+    fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.profile else { return Ok(()) };
+        rows.iter().try_for_each(|&(height, pressure)| table.row(&[time, height, pressure]))
+    }
+
+    fn field(&mut self, time: f64, cells: &[FieldCell]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.field else { return Ok(()) };
+        cells.iter().try_for_each(|c| table.row(&[time, c.x[0], c.x[1], c.fill, c.v[0], c.v[1], c.v[0].hypot(c.v[1])]))
+    }
+
+    fn frame(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
+        let Some(collection) = &mut self.frames else { return Ok(()) };
+        // In the order of their numbers, so that a point keeps its place from frame to frame.
+        let mut points: Vec<_> = simulation.particles().collect();
+        points.sort_by_key(|(body, p)| (*body, p.id));
+        let stress = |i: usize| {
+            let s = &points[i].1.state.stress;
+            [s.xx, s.yy, s.zz, s.xy, 0.0, 0.0]
+        };
+        let fields = [
+            Field { name: "velocity_m_per_s", values: Values::Vector(&|i| points[i].1.v) },
+            Field { name: "speed_m_per_s", values: Values::Scalar(&|i| points[i].1.speed()) },
+            Field { name: "stress_pa", values: Values::SymmetricTensor(&stress) },
+            Field { name: "mean_stress_pa", values: Values::Scalar(&|i| points[i].1.state.stress.mean()) },
+            Field { name: "volume_ratio", values: Values::Scalar(&|i| points[i].1.volume_ratio) },
+            Field { name: "opened_strain", values: Values::Scalar(&|i| points[i].1.state.opened) },
+            Field { name: "plastic_shear_strain", values: Values::Scalar(&|i| points[i].1.state.plastic_shear) },
+            Field { name: "body", values: Values::Integer(&|i| points[i].0 as i64) },
+            Field { name: "id", values: Values::Integer(&|i| i64::from(points[i].1.id)) },
+        ];
+        let name = format!("vtk/flow_{:05}.vtp", self.frame_count);
+        let path = self.directory.join(&name);
+        output::write_points(path, simulation.time(), points.len(), &|i| points[i].1.x, &fields)?;
+        collection.frame(simulation.time(), 0, &name)?;
+        self.frame_count += 1;
+        Ok(())
+    }
+}
+
+/// A boundary's name as part of a column name.
+fn column_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect()
+}
+
+fn energy_columns(boundaries: &[String]) -> Vec<String> {
+    let start = ["time_s", "kinetic_j", "gravitational_j", "elastic_j", "plastic_j"].map(String::from);
+    let friction = boundaries.iter().map(|b| format!("friction_{b}_j"));
+    let contact = boundaries.iter().map(|b| format!("contact_{b}_j"));
+    let end = ["pic_j", "damping_j", "side_walls_j", "outflow_j", "residual_j"].map(String::from);
+    start.into_iter().chain(friction).chain(contact).chain(end).collect()
+}
+
+fn momentum_columns(boundaries: &[String]) -> Vec<String> {
+    let both = |name: &str| [format!("{name}_x_n_s"), format!("{name}_y_n_s")];
+    let mut columns = vec!["time_s".to_string()];
+    columns.extend(both("gained"));
+    columns.extend(both("gravity"));
+    columns.extend(boundaries.iter().flat_map(|b| both(b)));
+    for name in ["damping", "side_walls", "outflow", "residual"] {
+        columns.extend(both(name));
+    }
+    columns
+}
+
+/// Outlines of the boundaries that stay, planes cut to a strip two cells thick along the domain.
+fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
+    let fixed = |b: &&Boundary| b.opening.is_none();
+    simulation
+        .boundaries()
+        .iter()
+        .enumerate()
+        .filter(|(_, b)| fixed(b))
+        .map(|(index, b)| {
+            let (foot, n, t) = (b.foot(), b.normal, b.tangent);
+            let corners = match b.solid {
+                Solid::HalfSpace { .. } => {
+                    let depth = 2.0 * simulation.spacing();
+                    let [xs, ys] = simulation.domain();
+                    let along: Vec<f64> = [[xs[0], ys[0]], [xs[1], ys[0]], [xs[0], ys[1]], [xs[1], ys[1]]]
+                        .iter()
+                        .filter(|c| b.depth(**c) >= 0.0)
+                        .map(|c| b.face_coordinates(*c).1)
+                        .collect();
+                    let low = along.iter().fold(f64::INFINITY, |a, s| a.min(*s));
+                    let high = along.iter().fold(f64::NEG_INFINITY, |a, s| a.max(*s));
+                    if low >= high {
+                        return (index, Vec::new());
+                    }
+                    vec![foot + t * low, foot + t * high, foot + t * high - n * depth, foot + t * low - n * depth]
+                }
+                Solid::Slab { height, thickness, .. } => {
+                    vec![foot, foot + t * height, foot + t * height - n * thickness, foot - n * thickness]
+                }
+            };
+            (index, corners.into_iter().map(Into::into).collect())
+        })
+        .filter(|(_, corners): &(usize, Vec<[f64; 2]>)| !corners.is_empty())
+        .collect()
+}
+
+fn write_geometry_table(directory: &Path, simulation: &Simulation) -> Result<(), OutputError> {
+    let mut table = TableWriter::create(directory.join("geometry.csv"), &["boundary", "x_m", "y_m"])?;
+    for (index, corners) in outlines(simulation) {
+        for c in corners {
+            table.row(&[index as f64, c[0], c[1]])?;
+        }
+    }
+    table.finish().map(|_| ())
+}
+
+fn write_geometry_vtk(directory: &Path, simulation: &Simulation) -> Result<(), OutputError> {
+    let outlines = outlines(simulation);
+    let lines: Vec<Polyline> = outlines
+        .iter()
+        .map(|(index, corners)| Polyline { boundary: *index as i64, points_m: corners, closed: true })
+        .collect();
+    output::write_polylines(directory.join("vtk").join("boundaries.vtp"), &lines)
+}

@@ -1,0 +1,184 @@
+//! What is recorded during a run.
+
+use crate::gauge::flow::FieldCell;
+use crate::ledger::{EnergyBalance, Ledger, Stock};
+use crate::output::OutputError;
+use crate::simulation::Simulation;
+
+/// One sample of the gauges; means over the sampling interval where a force is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct HistoryRow {
+    /// End of the interval, s after release.
+    pub time: f64,
+    /// Normal force on the barrier (its base shear), N.
+    pub normal: f64,
+    /// Force along the barrier's face, towards the crest, N.
+    pub tangential: f64,
+    /// Overturning moment about the barrier's foot, N m.
+    pub moment: f64,
+    /// Largest normal force of a single step, N.
+    pub normal_max: f64,
+    /// Normal force from the stress of the nearest 1, 2, 3 layers of material points, N.
+    pub layers: [f64; 3],
+    /// Force of the base on the material, normal and along it (positive down the flume), N.
+    pub base_normal: f64,
+    /// See `base_normal`.
+    pub base_friction: f64,
+    /// Front, m, m/s, m.
+    pub front: crate::gauge::flow::Front,
+    /// Highest material at the barrier, m.
+    pub run_up: f64,
+    /// Mass behind the barrier's face, kg.
+    pub overtopped: f64,
+    /// Mean and 95th percentile of the speed in the window, m/s.
+    pub window_speed: [f64; 2],
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Deepest point inside a boundary, m.
+    pub penetration: f64,
+    /// Time step, s.
+    pub time_step: f64,
+}
+
+impl HistoryRow {
+    /// Column names of the history table.
+    pub const COLUMNS: [&str; 20] = [
+        "time_s",
+        "force_normal_n",
+        "force_tangential_n",
+        "overturning_moment_n_m",
+        "force_normal_max_n",
+        "force_layer1_n",
+        "force_layer2_n",
+        "force_layer3_n",
+        "base_normal_n",
+        "base_friction_n",
+        "front_x_m",
+        "front_velocity_m_per_s",
+        "front_depth_m",
+        "run_up_m",
+        "overtopped_kg",
+        "window_speed_mean_m_per_s",
+        "window_speed_p95_m_per_s",
+        "kinetic_j",
+        "penetration_m",
+        "time_step_s",
+    ];
+
+    /// The values, parallel to [`Self::COLUMNS`].
+    pub fn values(&self) -> [f64; 20] {
+        [
+            self.time,
+            self.normal,
+            self.tangential,
+            self.moment,
+            self.normal_max,
+            self.layers[0],
+            self.layers[1],
+            self.layers[2],
+            self.base_normal,
+            self.base_friction,
+            self.front.x,
+            self.front.velocity,
+            self.front.depth,
+            self.run_up,
+            self.overtopped,
+            self.window_speed[0],
+            self.window_speed[1],
+            self.kinetic,
+            self.penetration,
+            self.time_step,
+        ]
+    }
+}
+
+/// Momentum by agent at one moment, N s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentumRow {
+    /// s after release.
+    pub time: f64,
+    /// Momentum of the material less what it had at release.
+    pub gained: [f64; 2],
+    /// The ledger.
+    pub ledger: Ledger,
+    /// `gained` less all impulses.
+    pub residual: [f64; 2],
+}
+
+impl MomentumRow {
+    /// Compares the stock with the ledger.
+    pub fn new(time: f64, ledger: &Ledger, opening: &Stock, now: &Stock) -> Self {
+        let given = ledger.impulse();
+        let gained = [now.momentum[0] - opening.momentum[0], now.momentum[1] - opening.momentum[1]];
+        let residual = [gained[0] - given[0], gained[1] - given[1]];
+        Self { time, gained, ledger: ledger.clone(), residual }
+    }
+
+    /// Residual over the sum of the magnitudes of all impulses.
+    pub fn closure(&self) -> f64 {
+        self.residual[0].hypot(self.residual[1]) / self.ledger.impulse_scale.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Energy by mechanism at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnergyRow {
+    /// s after release.
+    pub time: f64,
+    /// The balance, J.
+    pub balance: EnergyBalance,
+}
+
+/// Receives what is recorded.
+pub trait Recorder {
+    /// A sample of the gauges.
+    fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError>;
+    /// The energy ledger.
+    fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError>;
+    /// The momentum ledger.
+    fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError>;
+    /// Depth and velocity at the stations: (x, depth, velocity).
+    fn stations(&mut self, _time: f64, _rows: &[(f64, f64, f64)]) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// Mean pressure on the barrier since the last call: (height, pressure).
+    fn profile(&mut self, _time: f64, _rows: &[(f64, f64)]) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// Velocity field at a snapshot.
+    fn field(&mut self, _time: f64, _cells: &[FieldCell]) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// A frame of all material points.
+    fn frame(&mut self, _simulation: &Simulation) -> Result<(), OutputError> {
+        Ok(())
+    }
+}
+
+/// Keeps the time series in memory.
+#[derive(Debug, Clone, Default)]
+pub struct Records {
+    /// Samples of the gauges.
+    pub history: Vec<HistoryRow>,
+    /// Energy ledger.
+    pub energy: Vec<EnergyRow>,
+    /// Momentum ledger.
+    pub momentum: Vec<MomentumRow>,
+}
+
+impl Recorder for Records {
+    fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError> {
+        self.history.push(*row);
+        Ok(())
+    }
+
+    fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError> {
+        self.energy.push(row.clone());
+        Ok(())
+    }
+
+    fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError> {
+        self.momentum.push(row.clone());
+        Ok(())
+    }
+}

@@ -1,0 +1,462 @@
+//! What a run says: inputs resolved, results, ledgers, warnings.
+
+use super::experiment::{End, Experiment};
+use super::records::{HistoryRow, MomentumRow, Records};
+use crate::boundary::Friction;
+use crate::case::Case;
+use serde::Serialize;
+
+/// Force on the barrier above which the flow counts as arrived, N.
+const ARRIVAL_FORCE: f64 = 0.5;
+/// Length of the means behind "static" values, s.
+const STATIC_WINDOW: f64 = 0.3;
+/// Length of the mean behind the filtered peak, s: the paper's archive interval.
+const PEAK_WINDOW: f64 = 0.02;
+
+/// Everything worth knowing about a run; written as `summary.toml`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    /// How the run ended.
+    pub status: String,
+    /// Version of checkdam.
+    pub checkdam_version: String,
+    /// What deserves a second look.
+    pub warnings: Vec<String>,
+    /// Discretisation and stepping.
+    pub stepping: Stepping,
+    /// Forces on the barrier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub barrier: Option<BarrierResults>,
+    /// Equilibrium of the deposit at the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deposit: Option<DepositResults>,
+    /// Energy at the end.
+    pub energy: EnergyResults,
+    /// Momentum at the end.
+    pub momentum: MomentumResults,
+    /// The front as it passes the stations and reaches the barrier.
+    pub front: Vec<FrontPassage>,
+    /// The case with every default filled in.
+    pub case: Case,
+}
+
+/// Discretisation and stepping.
+#[derive(Debug, Clone, Serialize)]
+pub struct Stepping {
+    /// Material points at the start.
+    pub particles: usize,
+    /// Mass at the start, kg.
+    pub mass_kg: f64,
+    /// Time spent settling and tilting, s.
+    pub settle_time_s: f64,
+    /// Steps spent settling and tilting.
+    pub settle_steps: u64,
+    /// Residual at release: rms speed / sqrt(g x height).
+    pub settle_residual: f64,
+    /// End of the run, s after release.
+    pub end_time_s: f64,
+    /// Steps after release.
+    pub run_steps: u64,
+    /// Shortest time step after release, s.
+    pub time_step_min_s: f64,
+    /// Longest time step after release, s.
+    pub time_step_max_s: f64,
+    /// What limited the shortest time step.
+    pub time_step_limited_by: String,
+}
+
+/// Forces on the barrier.
+#[derive(Debug, Clone, Serialize)]
+pub struct BarrierResults {
+    /// First time at which the normal force exceeds 0.5 N, s; absent if the flow did not arrive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arrival_time_s: Option<f64>,
+    /// Largest normal force of a single step, N.
+    pub peak_force_step_n: f64,
+    /// Its time, s.
+    pub peak_force_step_time_s: f64,
+    /// Largest mean normal force over 20 ms, N.
+    pub peak_force_20ms_n: f64,
+    /// Middle of that interval, s.
+    pub peak_force_20ms_time_s: f64,
+    /// Mean normal force over the last 0.3 s, N.
+    pub static_force_n: f64,
+    /// Mean force along the barrier's face over the last 0.3 s, N; negative when the material drags it down.
+    pub static_shear_n: f64,
+    /// Change of the normal force from the first to the last third of these 0.3 s, N.
+    pub static_force_drift_n: f64,
+    /// The same force from the stress of the nearest 1, 2, 3 layers of material points, N.
+    pub static_force_layers_n: [f64; 3],
+    /// Base shear at the foot: the static normal force, N.
+    pub base_shear_n: f64,
+    /// Mean overturning moment about the foot over the last 0.3 s, N m.
+    pub static_moment_n_m: f64,
+    /// Height above the foot at which the static force acts, m.
+    pub static_height_of_action_m: f64,
+    /// Largest overturning moment of a single step, N m.
+    pub peak_moment_step_n_m: f64,
+    /// Impulse of the normal force, N s.
+    pub impulse_normal_n_s: f64,
+    /// Impulse of the force along the face, N s.
+    pub impulse_tangential_n_s: f64,
+    /// Highest material at the barrier at any time, m above its foot.
+    pub run_up_m: f64,
+    /// Mass that went over the barrier, kg.
+    pub overtopped_kg: f64,
+}
+
+/// Equilibrium along the flume at the end: weight, base friction, barrier.
+#[derive(Debug, Clone, Serialize)]
+pub struct DepositResults {
+    /// m g sin of what lies on the base, N.
+    pub weight_along_flume_n: f64,
+    /// m g (sin - mu cos): base friction fully mobilised up the flume, nothing on the barrier's face, N.
+    pub theoretical_static_force_n: f64,
+    /// Mean normal force of the base over the last 0.3 s, N.
+    pub base_normal_n: f64,
+    /// Mean friction of the base on the material, N; negative: up the flume.
+    pub base_friction_n: f64,
+    /// Friction that the base could give, mu N, N.
+    pub base_friction_limit_n: f64,
+    /// Share of it that is mobilised, -1 (up the flume, relieving the barrier) to 1 (down the flume, loading it).
+    pub mobilised_share: f64,
+    /// Least and greatest force along the flume that equilibrium allows: m g sin -/+ mu N.
+    pub friction_limits_n: [f64; 2],
+    /// Mean force that the material exerts along the flume on all boundaries but the base over the last 0.3 s, N.
+    pub held_along_flume_n: f64,
+    /// Weight plus base friction less what is held, N: zero at rest.
+    pub equilibrium_residual_n: f64,
+}
+
+/// Energy at the end, as shares of the energy at release.
+#[derive(Debug, Clone, Serialize)]
+pub struct EnergyResults {
+    /// Kinetic, gravitational (above the barrier's foot) and elastic energy at release, J.
+    pub initial_j: f64,
+    /// Kinetic.
+    pub kinetic: f64,
+    /// Gravitational.
+    pub gravitational: f64,
+    /// Elastic.
+    pub elastic: f64,
+    /// Plastic.
+    pub plastic: f64,
+    /// Friction on the boundaries.
+    pub friction: f64,
+    /// Normal impact on the boundaries.
+    pub contact: f64,
+    /// PIC share of the velocity update.
+    pub pic: f64,
+    /// Side walls.
+    pub side_walls: f64,
+    /// Carried out of the domain.
+    pub outflow: f64,
+    /// Not accounted for, at the end.
+    pub residual: f64,
+    /// Not accounted for, largest magnitude at any time.
+    pub residual_max: f64,
+    /// Largest kinetic share at any time.
+    pub kinetic_max: f64,
+}
+
+/// Momentum at the end.
+#[derive(Debug, Clone, Serialize)]
+pub struct MomentumResults {
+    /// Sum of the magnitudes of all impulses, N s.
+    pub impulse_scale_n_s: f64,
+    /// Largest residual at any time over that scale.
+    pub closure_max: f64,
+    /// Mass that left the domain, kg.
+    pub outflow_kg: f64,
+    /// Deepest that any point lay inside a boundary, m.
+    pub penetration_max_m: f64,
+}
+
+/// The front at a place.
+#[derive(Debug, Clone, Serialize)]
+pub struct FrontPassage {
+    /// Where, m.
+    pub x_m: f64,
+    /// When, s.
+    pub time_s: f64,
+    /// Velocity of its first 0.05 m, m/s.
+    pub velocity_m_per_s: f64,
+    /// Largest depth in its first 0.1 m, m.
+    pub depth_m: f64,
+    /// velocity / sqrt(g depth cos).
+    pub froude: f64,
+}
+
+impl Summary {
+    /// Of a run that ended.
+    pub fn new(case: &Case, experiment: &Experiment, records: &Records, end: End) -> Self {
+        let status = match end {
+            End::Rest => "completed: at rest",
+            End::Time => "completed: end time reached before rest",
+            End::Stopped => "stopped by the user; everything computed until then is here",
+        };
+        let mut summary = Self::build(case, experiment, records, status.into());
+        if end == End::Time && case.stages.run.stop_at_rest {
+            summary.warnings.push("the material was not at rest at the end: static values are not static".into());
+        }
+        summary
+    }
+
+    /// Of a run that failed.
+    pub fn failed(case: &Case, experiment: &Experiment, records: &Records, error: &str) -> Self {
+        Self::build(case, experiment, records, format!("failed: {error}"))
+    }
+
+    fn build(case: &Case, experiment: &Experiment, records: &Records, status: String) -> Self {
+        let mut summary = Self {
+            status,
+            checkdam_version: env!("CARGO_PKG_VERSION").into(),
+            warnings: Vec::new(),
+            stepping: stepping(experiment),
+            barrier: barrier(experiment, records),
+            deposit: deposit(experiment, records),
+            energy: energy(records),
+            momentum: momentum(records),
+            front: passages(case, records),
+            case: case.clone(),
+        };
+        summary.warn(experiment);
+        summary
+    }
+
+    /// As a TOML document.
+    pub fn to_toml(&self) -> String {
+        // Every type here maps to TOML; a failure would be a programming error, shown in place.
+        toml::to_string(self)
+            .unwrap_or_else(|e| format!("status = {:?}\n# the summary could not be written: {e}\n", self.status))
+    }
+
+    fn warn(&mut self, experiment: &Experiment) {
+        let sim = experiment.simulation();
+        let h = sim.spacing();
+        let mut warn = |text: String| self.warnings.push(text);
+        if self.energy.residual_max.abs() > 0.02 {
+            warn(format!(
+                "energy does not close: {:.2} % of E0 is not accounted for",
+                100.0 * self.energy.residual_max
+            ));
+        }
+        if self.momentum.closure_max > 1e-10 {
+            warn(format!("momentum does not close: {:.1e} of all impulses", self.momentum.closure_max));
+        }
+        if self.momentum.penetration_max_m > h {
+            warn(format!("material lay {:.1} cells deep inside a boundary", self.momentum.penetration_max_m / h));
+        }
+        if self.momentum.outflow_kg > 0.0 {
+            warn(format!("{:.4} kg left the domain", self.momentum.outflow_kg));
+        }
+        if let Some(b) = &self.barrier {
+            if b.overtopped_kg > 0.0 {
+                warn(format!("{:.4} kg went over the barrier", b.overtopped_kg));
+            }
+            if b.arrival_time_s.is_none() {
+                warn("the flow did not reach the barrier".into());
+            }
+        }
+        if let Some(d) = &self.deposit
+            && d.mobilised_share.abs() < 0.9
+        {
+            warn(format!(
+                "the base mobilises {:.0} % of its friction at rest: any force between {:.1} and {:.1} N is in equilibrium, \
+                 and which one it is depends on the history",
+                100.0 * d.mobilised_share,
+                d.friction_limits_n[0],
+                d.friction_limits_n[1]
+            ));
+        }
+    }
+}
+
+fn stepping(experiment: &Experiment) -> Stepping {
+    let (sim, facts) = (experiment.simulation(), experiment.facts());
+    let opening = sim.opening();
+    Stepping {
+        particles: (opening.mass / sim.bodies().first().map_or(1.0, |b| b.point_mass)).round() as usize,
+        mass_kg: opening.mass,
+        settle_time_s: facts.settle_time,
+        settle_steps: facts.settle_steps,
+        settle_residual: facts.settle_residual,
+        end_time_s: facts.end_time.max(sim.time()),
+        run_steps: facts.run_steps,
+        time_step_min_s: if facts.run_steps > 0 { facts.time_step[0] } else { 0.0 },
+        time_step_max_s: facts.time_step[1],
+        time_step_limited_by: facts.shortest.map_or_else(|| "no step was made".into(), |s| sim.describe_limit(&s)),
+    }
+}
+
+/// Mean of a quantity over the samples of the last `STATIC_WINDOW`, or of a part of it.
+fn late_mean(history: &[HistoryRow], from: f64, to: f64, value: impl Fn(&HistoryRow) -> f64) -> f64 {
+    let Some(last) = history.last() else { return 0.0 };
+    let (low, high) = (last.time - STATIC_WINDOW * (1.0 - from), last.time - STATIC_WINDOW * (1.0 - to));
+    let inside = history.iter().filter(|r| r.time > low && r.time <= high);
+    let (sum, count) = inside.fold((0.0, 0.0), |(s, n), r| (s + value(r), n + 1.0));
+    if count > 0.0 { sum / count } else { value(last) }
+}
+
+fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults> {
+    let gauge = experiment.barrier()?;
+    let history = &records.history;
+    let last = history.last()?;
+    let late = |value: fn(&HistoryRow) -> f64| late_mean(history, 0.0, 1.0, value);
+    let static_force = late(|r| r.normal);
+    let static_moment = late(|r| r.moment);
+    let peak = smoothed_peak(history);
+    Some(BarrierResults {
+        arrival_time_s: history.iter().find(|r| r.normal > ARRIVAL_FORCE).map(|r| r.time),
+        peak_force_step_n: gauge.peak_force().value,
+        peak_force_step_time_s: gauge.peak_force().time,
+        peak_force_20ms_n: peak.0,
+        peak_force_20ms_time_s: peak.1,
+        static_force_n: static_force,
+        static_shear_n: late(|r| r.tangential),
+        static_force_drift_n: late_mean(history, 2.0 / 3.0, 1.0, |r| r.normal)
+            - late_mean(history, 0.0, 1.0 / 3.0, |r| r.normal),
+        static_force_layers_n: [late(|r| r.layers[0]), late(|r| r.layers[1]), late(|r| r.layers[2])],
+        base_shear_n: static_force,
+        static_moment_n_m: static_moment,
+        static_height_of_action_m: if static_force > 0.0 { static_moment / static_force } else { 0.0 },
+        peak_moment_step_n_m: gauge.peak_moment().value,
+        impulse_normal_n_s: gauge.impulse()[0],
+        impulse_tangential_n_s: gauge.impulse()[1],
+        run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
+        overtopped_kg: last.overtopped,
+    })
+}
+
+/// Largest mean over `PEAK_WINDOW` and the middle of its interval.
+fn smoothed_peak(history: &[HistoryRow]) -> (f64, f64) {
+    let mut best = (0.0, 0.0);
+    let (mut first, mut sum) = (0, 0.0);
+    for (k, row) in history.iter().enumerate() {
+        sum += row.normal;
+        while row.time - history[first].time > PEAK_WINDOW * (1.0 - 1e-9) {
+            sum -= history[first].normal;
+            first += 1;
+        }
+        let mean = sum / (k + 1 - first) as f64;
+        if mean > best.0 && row.time >= PEAK_WINDOW {
+            best = (mean, 0.5 * (row.time + history[first].time));
+        }
+    }
+    best
+}
+
+fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults> {
+    let sim = experiment.simulation();
+    let base = &sim.boundaries()[experiment.base()?];
+    let Friction::Coulomb(mu) = base.friction else { return None };
+    let last = records.history.last()?;
+    let g = sim.gravity();
+    let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
+    let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
+    // What lies behind the barrier rests on the base, too, but does not push.
+    let gone = sim.ledger().departed_behind[experiment.barrier()?.boundary()];
+    let mass = sim.mass() - (last.overtopped - gone);
+    let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
+    let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
+    let weight = mass * along;
+    let limit = mu * base_normal;
+    // What the other boundaries take, from the ledger: the barrier, and whatever else the deposit leans on.
+    let end = records.momentum.last()?;
+    let start = records.momentum.iter().find(|r| r.time >= end.time - STATIC_WINDOW)?;
+    let base_index = experiment.base()?;
+    let push = |row: &MomentumRow| -> f64 {
+        let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| *b != base_index);
+        others.map(|(_, t)| t.impulse[0] * base.tangent.x + t.impulse[1] * base.tangent.y).sum()
+    };
+    let held = -(push(end) - push(start)) / (end.time - start.time).max(f64::MIN_POSITIVE);
+    Some(DepositResults {
+        weight_along_flume_n: weight,
+        theoretical_static_force_n: mass * (along - mu * across),
+        base_normal_n: base_normal,
+        base_friction_n: base_friction,
+        base_friction_limit_n: limit,
+        mobilised_share: if limit > 0.0 { base_friction / limit } else { 0.0 },
+        friction_limits_n: [weight - limit, weight + limit],
+        held_along_flume_n: held,
+        equilibrium_residual_n: weight + base_friction - held,
+    })
+}
+
+fn energy(records: &Records) -> EnergyResults {
+    let mut results = EnergyResults {
+        initial_j: 0.0,
+        kinetic: 0.0,
+        gravitational: 0.0,
+        elastic: 0.0,
+        plastic: 0.0,
+        friction: 0.0,
+        contact: 0.0,
+        pic: 0.0,
+        side_walls: 0.0,
+        outflow: 0.0,
+        residual: 0.0,
+        residual_max: 0.0,
+        kinetic_max: 0.0,
+    };
+    let Some(last) = records.energy.last() else { return results };
+    let e = &last.balance;
+    results.initial_j = e.initial;
+    if e.initial == 0.0 {
+        return results;
+    }
+    let share = |x: f64| x / e.initial;
+    results.kinetic = share(e.kinetic);
+    results.gravitational = share(e.gravitational);
+    results.elastic = share(e.elastic);
+    results.plastic = share(e.plastic);
+    results.friction = share(e.friction.iter().sum());
+    results.contact = share(e.contact.iter().sum());
+    results.pic = share(e.pic);
+    results.side_walls = share(e.side_walls);
+    results.outflow = share(e.outflow);
+    results.residual = share(e.residual);
+    let largest = |value: fn(&crate::ledger::EnergyBalance) -> f64| {
+        records.energy.iter().map(|r| share(value(&r.balance)).abs()).fold(0.0, f64::max)
+    };
+    results.residual_max = largest(|b| b.residual);
+    results.kinetic_max = largest(|b| b.kinetic);
+    results
+}
+
+fn momentum(records: &Records) -> MomentumResults {
+    let last = records.momentum.last();
+    MomentumResults {
+        impulse_scale_n_s: last.map_or(0.0, |r| r.ledger.impulse_scale),
+        closure_max: records
+            .momentum
+            .iter()
+            .filter(|r| r.ledger.impulse_scale > 0.0)
+            .map(super::records::MomentumRow::closure)
+            .fold(0.0, f64::max),
+        outflow_kg: last.map_or(0.0, |r| r.ledger.departed_mass),
+        penetration_max_m: records.history.iter().map(|r| r.penetration).fold(0.0, f64::max),
+    }
+}
+
+fn passages(case: &Case, records: &Records) -> Vec<FrontPassage> {
+    let g = case.gravity.magnitude_m_per_s2 * libm::cos(case.gravity.inclination_deg.to_radians());
+    let at = |row: &HistoryRow, x: f64| FrontPassage {
+        x_m: x,
+        time_s: row.time,
+        velocity_m_per_s: row.front.velocity,
+        depth_m: row.front.depth,
+        froude: row.front.velocity / (g * row.front.depth).sqrt(),
+    };
+    let stations = case.gauges.stations_m.iter();
+    let mut passages: Vec<_> =
+        stations.filter_map(|&x| records.history.iter().find(|r| r.front.x >= x).map(|row| at(row, x))).collect();
+    // Just before the barrier is touched.
+    if let Some(k) = records.history.iter().position(|r| r.normal > ARRIVAL_FORCE)
+        && k > 0
+    {
+        let row = &records.history[k - 1];
+        passages.push(at(row, row.front.x));
+    }
+    passages
+}
