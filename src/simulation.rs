@@ -10,8 +10,9 @@ use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::momentum::{BodyForces, NodeSolver};
 use crate::shape::ShapeFunction;
 use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
-use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use crate::transfer::{self, NodeMap, PointConstants, Reach, Scatter, StressUpdate, VelocityUpdate};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// When the stress is updated within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +64,10 @@ pub struct Numerics {
 
 /// A field of accelerations (m/s2), given a point and the time (s).
 #[derive(Clone)]
-pub struct AccelerationField(pub std::sync::Arc<dyn Fn(&Particle, f64) -> [f64; 2] + Send + Sync>);
+pub struct AccelerationField(pub Arc<Acceleration>);
+
+/// Acceleration (m/s2) of a point at a time (s).
+pub type Acceleration = dyn Fn(&Particle, f64) -> [f64; 2] + Send + Sync;
 
 impl std::fmt::Debug for AccelerationField {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -252,7 +256,8 @@ impl Simulation {
     fn particles_to_grid(&mut self, what: Scatter) {
         let map = NodeMap::new(&self.grid);
         let (bodies, shape, side) = (&self.bodies, self.numerics.shape, self.side_friction);
-        let (field, time) = (self.field.as_ref(), self.time);
+        let field = self.field.as_ref().filter(|_| what != Scatter::Inertia);
+        let time = self.time;
         self.bands.par_iter_mut().with_max_len(1).for_each(|band| {
             if what != Scatter::Force {
                 band.inertia.fill([0.0; 4]);
@@ -262,26 +267,17 @@ impl Simulation {
             }
             for (body, points) in bodies.iter().zip(&band.points) {
                 let l = shape.half_width(body.points_per_direction);
-                let constants = constants(body, side);
-                transfer::scatter(
-                    what,
-                    l,
-                    &map,
-                    constants,
-                    points,
-                    band.first_node,
-                    &mut band.inertia,
-                    &mut band.force,
-                );
+                let reach = Reach { first_node: band.first_node, inertia: &mut band.inertia, force: &mut band.force };
+                transfer::scatter(what, l, &map, constants(body, side), points, reach);
             }
-            if let Some(AccelerationField(field)) = field.filter(|_| what != Scatter::Inertia) {
+            if let Some(AccelerationField(field)) = field {
                 band.field_force.clear();
                 band.field_force.resize(band.force.len(), [0.0; 2]);
                 for (body, points) in bodies.iter().zip(&band.points) {
                     let l = shape.half_width(body.points_per_direction);
                     let at = |p: &Particle| field(p, time);
-                    let (first, m) = (band.first_node, body.point_mass);
-                    transfer::scatter_field(l, &map, m, &at, points, first, &mut band.field_force);
+                    let reach = Reach { first_node: band.first_node, inertia: &mut [], force: &mut band.field_force };
+                    transfer::scatter_field(l, &map, body.point_mass, &at, points, reach);
                 }
             }
         });
@@ -325,16 +321,8 @@ impl Simulation {
             for (body, points) in bodies.iter().zip(&mut band.points) {
                 let l = shape.half_width(body.points_per_direction);
                 let constants = constants(body, 0.0);
-                let part = transfer::gather_velocity(
-                    l,
-                    &map,
-                    constants,
-                    update,
-                    motion,
-                    points,
-                    band.first_node,
-                    &mut band.force,
-                );
+                let reach = Reach { first_node: band.first_node, inertia: &mut [], force: &mut band.force };
+                let part = transfer::gather_velocity(l, &map, constants, update, motion, points, reach);
                 sums.kinetic += part.kinetic;
                 sums.pic_loss += part.pic_loss;
                 sums.max_speed = sums.max_speed.max(part.max_speed);

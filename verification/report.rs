@@ -41,11 +41,16 @@ pub fn checks_csv(outcome: &Outcome) -> String {
     text
 }
 
-/// A table as CSV: header names with units, then rows.
+/// A table as CSV: header names with units, then rows. Every number is rounded to the ninth digit of the largest in its column:
+/// what is smaller is round-off of the others.
 pub fn table_csv(header: &[&str], rows: impl IntoIterator<Item = Vec<f64>>) -> String {
+    let rows: Vec<Vec<f64>> = rows.into_iter().collect();
+    let largest = |column: usize| rows.iter().map(|r| r[column].abs()).filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let quanta: Vec<f64> = (0..header.len()).map(|c| power_of_ten(1e-8 * largest(c))).collect();
     let mut text = header.join(",") + "\n";
-    for row in rows {
-        text.push_str(&row.into_iter().map(number).collect::<Vec<_>>().join(","));
+    for row in &rows {
+        let cells: Vec<String> = row.iter().zip(&quanta).map(|(&x, &q)| number(rounded(x, q))).collect();
+        text.push_str(&cells.join(","));
         text.push('\n');
     }
     text
@@ -71,18 +76,56 @@ pub fn number(x: f64) -> String {
     if x.is_infinite() { String::new() } else { significant(x, DIGITS) }
 }
 
-/// What a check measured. Where it is judged at the level of round-off, digits below a hundredth of the tolerance say nothing
-/// and are dropped, lest every reordering of a sum change the reports.
+/// What a check measured or its error: to nine digits of the larger of measured and expected, and to a ten-thousandth of what
+/// is allowed; to a tenth of it where that is at the level of round-off. Finer digits say nothing, and would change with every
+/// reordering of a sum.
 fn measured(c: &Check, x: f64) -> String {
-    let bound = match c.expected {
-        Expected::AtMost(v) if c.allowed() == 0.0 => v,
-        _ => c.allowed(),
+    let bounds = match c.expected {
+        Expected::Value(v) => [v, v],
+        Expected::AtMost(v) => [0.0, v],
+        Expected::AtLeast(v) => [v, v],
+        Expected::Within(low, high) => [low, high],
     };
-    let round_off = bound > 0.0 && bound < 1e-8;
-    let quantum = 0.01 * bound;
-    number(if round_off && (x / quantum).abs() < 1e12 { (x / quantum).round() * quantum } else { x })
+    let size = c.measured.abs().max(bounds[0].abs()).max(bounds[1].abs());
+    let allowed = if c.allowed() > 0.0 { c.allowed() } else { bounds[1] - bounds[0] };
+    let share = if allowed < 1e-8 * size.max(1.0) { 0.1 } else { 1e-4 };
+    number(rounded(x, power_of_ten((1e-9 * size).max(share * allowed))))
+}
+
+/// The largest power of ten that is at most `x`; 0 for 0.
+fn power_of_ten(x: f64) -> f64 {
+    let exponent = format!("{x:e}");
+    let exponent = exponent.split('e').nth(1).and_then(|e| e.parse::<i32>().ok());
+    exponent.filter(|_| x > 0.0).map_or(0.0, |e| format!("1e{e}").parse().unwrap_or(0.0))
+}
+
+/// `x` to a multiple of `quantum`, as far as there is one.
+fn rounded(x: f64, quantum: f64) -> f64 {
+    if quantum > 0.0 && (x / quantum).abs() < 1e15 { (x / quantum).round() * quantum } else { x }
 }
 
 fn quoted(s: &str) -> String {
     if s.contains([',', '"', '\n']) { format!("\"{}\"", s.replace('"', "\"\"")) } else { s.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::{Kind, Tolerance};
+
+    #[test]
+    fn digits_of_round_off_are_dropped() {
+        assert_eq!(power_of_ten(3.7e-9), 1e-9);
+        assert_eq!(power_of_ten(1e3), 1e3);
+        assert_eq!(power_of_ten(0.0), 0.0);
+        let table = table_csv(&["a_m", "b_1"], [vec![20.123_456_789_1, 1.0], vec![1.1e-31, f64::INFINITY]]);
+        assert_eq!(table, "a_m,b_1\n20.1234568,1\n0,\n");
+        let check = Check::at_most("noise", 2.2e-16, 1e-14, "1").because("r").from(Kind::Analytic, "s");
+        assert_eq!(measured(&check, check.measured), "0");
+        let check = Check::value("speed", 1.234_567_891_23, 1.234, "m/s")
+            .within(Tolerance::Relative(0.01), "r")
+            .from(Kind::Analytic, "s");
+        assert_eq!(measured(&check, check.measured), "1.234568");
+        assert_eq!(measured(&check, f64::NAN), "NaN");
+    }
 }

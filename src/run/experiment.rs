@@ -82,7 +82,7 @@ pub enum End {
 pub enum RunError {
     /// The simulation failed.
     #[error("the simulation failed: {0}")]
-    Step(#[from] StepFailure),
+    Step(Box<StepFailure>),
     /// The material did not settle.
     #[error(
         "the material did not settle: after {time} s the residual is {residual:.3e}, wanted {wanted:.3e}\n  \
@@ -102,6 +102,12 @@ pub enum RunError {
     /// A figure could not be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+}
+
+impl From<StepFailure> for RunError {
+    fn from(failure: StepFailure) -> Self {
+        RunError::Step(Box::new(failure))
+    }
 }
 
 /// Facts of the stages before the release, and of the stepping.

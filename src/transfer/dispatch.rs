@@ -5,7 +5,7 @@
 //! function compiled for AVX2 or AVX-512 after the processor has said that it has it.
 #![allow(unsafe_code)]
 
-use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
+use super::{NodeMap, PointConstants, Reach, Scatter, StressUpdate, VelocityUpdate, kernels};
 use crate::body::{Particle, Points};
 use crate::constitutive::{AnyLaw, Law};
 use crate::layout::BandSums;
@@ -64,17 +64,14 @@ fn detect() -> VectorUnit {
 /// Compiles `$name` of [`kernels`] for each instruction set and calls the one found.
 macro_rules! by_vector_unit {
     ($name:ident, [$($gen:ident : $bound:path),*], [$(const $c:ident),*], ($($arg:ident : $ty:ty),* $(,)?) $(-> $ret:ty)?) => {
-        #[allow(clippy::too_many_arguments)]
         fn $name<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx2")]
-                #[allow(clippy::too_many_arguments)]
                 fn avx2<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
                     kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
                 }
                 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
-                #[allow(clippy::too_many_arguments)]
                 fn avx512<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
                     kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
                 }
@@ -95,12 +92,11 @@ mod wide {
     use super::*;
 
     by_vector_unit!(scatter, [S: Shape1d], [const INERTIA, const FORCE], (
-        shape: S, map: &NodeMap, constants: PointConstants, points: &Points, first_node: usize,
-        inertia: &mut [[f64; 4]], force: &mut [[f64; 2]],
+        shape: S, map: &NodeMap, constants: PointConstants, points: &Points, reach: Reach,
     ));
     by_vector_unit!(gather_velocity, [S: Shape1d], [const REMAP], (
         shape: S, map: &NodeMap, constants: PointConstants, update: VelocityUpdate, motion: &[[f64; 4]],
-        points: &mut Points, first_node: usize, momentum: &mut [[f64; 2]],
+        points: &mut Points, reach: Reach,
     ) -> BandSums);
     by_vector_unit!(update_stress, [S: Shape1d, L: Law], [], (
         shape: S, law: L, map: &NodeMap, constants: PointConstants, update: StressUpdate,
@@ -113,14 +109,12 @@ mod wide {
         map: &NodeMap,
         constants: PointConstants,
         points: &Points,
-        first_node: usize,
-        inertia: &mut [[f64; 4]],
-        force: &mut [[f64; 2]],
+        reach: Reach,
     ) {
         match what {
-            Scatter::All => scatter::<S, true, true>(shape, map, constants, points, first_node, inertia, force),
-            Scatter::Inertia => scatter::<S, true, false>(shape, map, constants, points, first_node, inertia, force),
-            Scatter::Force => scatter::<S, false, true>(shape, map, constants, points, first_node, inertia, force),
+            Scatter::All => scatter::<S, true, true>(shape, map, constants, points, reach),
+            Scatter::Inertia => scatter::<S, true, false>(shape, map, constants, points, reach),
+            Scatter::Force => scatter::<S, false, true>(shape, map, constants, points, reach),
         }
     }
 
@@ -131,13 +125,12 @@ mod wide {
         update: VelocityUpdate,
         motion: &[[f64; 4]],
         points: &mut Points,
-        first_node: usize,
-        momentum: &mut [[f64; 2]],
+        reach: Reach,
     ) -> BandSums {
         if update.remap {
-            gather_velocity::<S, true>(shape, map, constants, update, motion, points, first_node, momentum)
+            gather_velocity::<S, true>(shape, map, constants, update, motion, points, reach)
         } else {
-            gather_velocity::<S, false>(shape, map, constants, update, motion, points, first_node, momentum)
+            gather_velocity::<S, false>(shape, map, constants, update, motion, points, reach)
         }
     }
 
@@ -157,24 +150,20 @@ mod wide {
     }
 }
 
-/// Particle to grid. `half_width` is that of the shape function's averaging box in cells, 0 for linear shape functions;
-/// `inertia` and `force` belong to the nodes from `first_node` on.
-#[allow(clippy::too_many_arguments)]
+/// Particle to grid. `half_width` is that of the shape function's averaging box in cells, 0 for linear shape functions.
 pub fn scatter(
     what: Scatter,
     half_width: f64,
     map: &NodeMap,
     constants: PointConstants,
     points: &Points,
-    first_node: usize,
-    inertia: &mut [[f64; 4]],
-    force: &mut [[f64; 2]],
+    reach: Reach,
 ) {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::scatter_shape(what, shape, map, constants, points, first_node, inertia, force);
+        wide::scatter_shape(what, shape, map, constants, points, reach);
     } else {
-        wide::scatter_shape(what, Hat, map, constants, points, first_node, inertia, force);
+        wide::scatter_shape(what, Hat, map, constants, points, reach);
     }
 }
 
@@ -185,18 +174,16 @@ pub fn scatter_field(
     mass: f64,
     acceleration: &dyn Fn(&Particle) -> [f64; 2],
     points: &Points,
-    first_node: usize,
-    force: &mut [[f64; 2]],
+    reach: Reach,
 ) {
     if half_width > 0.0 {
-        kernels::scatter_field(AveragedHat::new(half_width), map, mass, acceleration, points, first_node, force);
+        kernels::scatter_field(AveragedHat::new(half_width), map, mass, acceleration, points, reach);
     } else {
-        kernels::scatter_field(Hat, map, mass, acceleration, points, first_node, force);
+        kernels::scatter_field(Hat, map, mass, acceleration, points, reach);
     }
 }
 
-/// Grid to particle: velocity, displacement, and (MUSL) the momentum mapped back into `momentum`.
-#[allow(clippy::too_many_arguments)]
+/// Grid to particle: velocity, displacement, and (MUSL) the momentum mapped back into the force of `reach`.
 pub fn gather_velocity(
     half_width: f64,
     map: &NodeMap,
@@ -204,14 +191,13 @@ pub fn gather_velocity(
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
-    first_node: usize,
-    momentum: &mut [[f64; 2]],
+    reach: Reach,
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::gather_shape(shape, map, constants, update, motion, points, first_node, momentum)
+        wide::gather_shape(shape, map, constants, update, motion, points, reach)
     } else {
-        wide::gather_shape(Hat, map, constants, update, motion, points, first_node, momentum)
+        wide::gather_shape(Hat, map, constants, update, motion, points, reach)
     }
 }
 

@@ -1,6 +1,8 @@
 //! The loops over material points.
 
-use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
+#![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
+
+use super::{NodeMap, PointConstants, Reach, StressUpdate, VelocityUpdate};
 use crate::body::{Block, Particle, Points};
 use crate::constitutive::{Increment, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane, floor_to_int};
@@ -89,10 +91,9 @@ pub fn scatter<S: Shape1d, const INERTIA: bool, const FORCE: bool>(
     map: &NodeMap,
     constants: PointConstants,
     points: &Points,
-    first_node: usize,
-    inertia: &mut [[f64; 4]],
-    force: &mut [[f64; 2]],
+    reach: Reach,
 ) {
+    let Reach { first_node, inertia, force } = reach;
     let m = constants.mass;
     for (block, n) in points.blocks() {
         let stencil = Stencils::new(shape, map, block);
@@ -151,9 +152,9 @@ pub fn scatter_field<S: Shape1d>(
     mass: f64,
     acceleration: &dyn Fn(&Particle) -> [f64; 2],
     points: &Points,
-    first_node: usize,
-    force: &mut [[f64; 2]],
+    reach: Reach,
 ) {
+    let Reach { first_node, force, .. } = reach;
     for (block, n) in points.blocks() {
         let stencil = Stencils::new(shape, map, block);
         for l in 0..n {
@@ -178,9 +179,9 @@ pub fn gather_velocity<S: Shape1d, const REMAP: bool>(
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
-    first_node: usize,
-    momentum: &mut [[f64; 2]],
+    reach: Reach,
 ) -> BandSums {
+    let Reach { first_node, force: momentum, .. } = reach;
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
     for (block, n) in points.blocks_mut() {

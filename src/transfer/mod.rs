@@ -34,6 +34,17 @@ pub struct PointConstants {
     pub side_friction: f64,
 }
 
+/// The nodes that a band of points can reach, and its private sums there.
+#[derive(Debug)]
+pub struct Reach<'a> {
+    /// Index of the first of them.
+    pub first_node: usize,
+    /// Mass, momentum x and y, side-wall friction capacity.
+    pub inertia: &'a mut [[f64; 4]],
+    /// Force, or remapped momentum.
+    pub force: &'a mut [[f64; 2]],
+}
+
 /// How the velocity of the points follows the grid.
 #[derive(Debug, Clone, Copy)]
 pub struct VelocityUpdate {

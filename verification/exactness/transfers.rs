@@ -94,9 +94,7 @@ impl Bench {
                 &map,
                 constants,
                 &band.points[0],
-                band.first_node,
-                &mut band.inertia,
-                &mut band.force,
+                transfer::Reach { first_node: band.first_node, inertia: &mut band.inertia, force: &mut band.force },
             );
             for (k, (inertia, force)) in band.inertia.iter().zip(&band.force).enumerate() {
                 let x = positions[band.first_node + k];
@@ -154,8 +152,7 @@ impl Bench {
                 velocity,
                 &self.grid.motion,
                 points,
-                band.first_node,
-                &mut band.force,
+                transfer::Reach { first_node: band.first_node, inertia: &mut [], force: &mut band.force },
             );
             transfer::update_stress(
                 self.half_width,
