@@ -11,6 +11,7 @@ pub mod earth_pressure;
 pub mod energy;
 pub mod exactness;
 pub mod fault;
+pub mod figures;
 pub mod report;
 pub mod scene;
 pub mod self_weight;

@@ -1,7 +1,11 @@
 //! Reports as CSV text: the same bytes for the same bits.
 
+use super::figures::draw_figures;
 use super::{Outcome, RUNGS};
 use crate::check::{Check, Expected, significant};
+use crate::output::{OutputError, write_text};
+use crate::plot::PlotError;
+use std::path::Path;
 
 /// Significant digits in reports.
 pub const DIGITS: usize = 9;
@@ -9,6 +13,21 @@ pub const DIGITS: usize = 9;
 /// Everything that a rung leaves behind, as (name without extension, CSV text): its checks, then its tables.
 pub fn files(name: &str, outcome: &Outcome) -> Vec<(String, String)> {
     std::iter::once((name.to_string(), checks_csv(outcome))).chain(outcome.tables.iter().cloned()).collect()
+}
+
+/// Writes tables and figures of an outcome into `folder`, which is created; returns their names.
+///
+/// # Errors
+/// The first file that could not be written.
+pub fn write(name: &str, outcome: &Outcome, folder: &Path) -> Result<Vec<String>, PlotError> {
+    std::fs::create_dir_all(folder).map_err(|source| OutputError::Create { path: folder.to_path_buf(), source })?;
+    let mut written = Vec::new();
+    for (stem, text) in files(name, outcome) {
+        written.push(format!("{stem}.csv"));
+        write_text(folder.join(format!("{stem}.csv")), &text)?;
+    }
+    written.extend(draw_figures(name, folder)?);
+    Ok(written)
 }
 
 /// The checks of an outcome as CSV, one a line.

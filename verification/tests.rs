@@ -1,7 +1,7 @@
 //! Runs the ladder. Physics is judged first, then the reports are compared with those in `reports/verification`; after a
-//! change of the physics that is meant, run with `CHECKDAM_BLESS=1` to write them anew.
+//! change of the physics that is meant, run with `INSTA_UPDATE=always` to write them anew.
 
-use checkdam::verification::report::{faults_csv, files, ladder_csv};
+use checkdam::verification::report::{faults_csv, ladder_csv, write};
 use checkdam::verification::{Fault, FaultKind, Outcome, RUNGS, Rung};
 use std::path::PathBuf;
 
@@ -13,21 +13,12 @@ fn run(rung: &Rung, fault: &Fault) -> Outcome {
     (rung.run)(fault).unwrap_or_else(|e| panic!("{}: {e}", rung.name))
 }
 
-/// Compares a report with the committed one, or writes it where asked.
-fn compare(stem: &str, text: &str) {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("reports/verification").join(format!("{stem}.csv"));
-    if std::env::var("CHECKDAM_BLESS").is_ok_and(|v| v == "1") {
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, text).unwrap();
-        return;
-    }
-    let committed = std::fs::read_to_string(&path).unwrap_or_default();
-    if committed != text {
-        let line = committed.lines().zip(text.lines()).position(|(a, b)| a != b);
-        let n = line.unwrap_or_else(|| committed.lines().count().min(text.lines().count()));
-        let at = |s: &str| s.lines().nth(n).unwrap_or("(nothing)").to_string();
-        panic!("{} changed, line {}:\n  was {}\n  is  {}", path.display(), n + 1, at(&committed), at(text));
-    }
+/// Compares a report with the one in `reports/verification`.
+fn compare(file: &str, content: &str) {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("reports/verification");
+    insta::with_settings!({ snapshot_path => folder, prepend_module_to_snapshot => false }, {
+        insta::assert_binary_snapshot!(file, content.as_bytes().to_vec());
+    });
 }
 
 fn climb(name: &str) {
@@ -36,14 +27,11 @@ fn climb(name: &str) {
     println!("{verdict}");
     // For looking at, also when it fails.
     let seen = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("verification");
-    std::fs::create_dir_all(&seen).unwrap();
-    let files = files(name, &outcome);
-    for (stem, text) in &files {
-        std::fs::write(seen.join(format!("{stem}.csv")), text).unwrap();
-    }
-    assert!(verdict.passes(), "{verdict}");
-    for (stem, text) in &files {
-        compare(stem, text);
+    let written = write(name, &outcome, &seen).unwrap_or_else(|e| panic!("{name}: {e}"));
+    println!("tables and figures: {}", seen.display());
+    assert!(verdict.passes(), "{verdict}\ntables and figures: {}", seen.display());
+    for file in written {
+        compare(&file, &std::fs::read_to_string(seen.join(&file)).expect("what was just written"));
     }
 }
 
@@ -55,7 +43,7 @@ macro_rules! ladder {
         #[test]
         fn every_rung_is_tested() {
             assert_eq!(RUNGS.iter().map(|r| r.name).collect::<Vec<_>>(), [$(stringify!($name)),*]);
-            compare("ladder", &ladder_csv());
+            compare("ladder.csv", &ladder_csv());
         }
     };
 }
@@ -90,5 +78,5 @@ fn every_fault_is_caught() {
         }
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
-    compare("faults", &faults_csv(&rows));
+    compare("faults.csv", &faults_csv(&rows));
 }

@@ -3,6 +3,7 @@
 //! The same table gives the same bytes. A figure names no file, date or font; text is set in the reader's `sans-serif`.
 
 mod axes;
+pub mod curves;
 mod energy_layers;
 pub mod energy_shares;
 pub mod flow_snapshots;
