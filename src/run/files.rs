@@ -70,7 +70,7 @@ pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<
         let mut lines = Vec::new();
         if let Some(forces) = &summary.deposit {
             lines.push(ReferenceLine {
-                label: "m g (sin - mu cos), base friction fully mobilised up the flume".into(),
+                label: "weight less full base friction\nm g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})".into(),
                 value_n: forces.theoretical_static_force_n,
             });
         }
