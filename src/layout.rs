@@ -30,6 +30,8 @@ pub struct Band {
     pub inertia: Vec<[f64; 4]>,
     /// Internal force x and y (N), or remapped momentum.
     pub force: Vec<[f64; 2]>,
+    /// Force of a body-force field x and y (N); empty unless there is one.
+    pub field_force: Vec<[f64; 2]>,
     /// Sums over the band's points in this step.
     pub sums: BandSums,
 }
@@ -68,6 +70,8 @@ pub struct Sorter {
     base_rows: Vec<(i32, i32)>,
     counts: Vec<u32>,
     offsets: Vec<u32>,
+    cuts: Vec<usize>,
+    firsts: Vec<u32>,
 }
 
 /// What the sort needs to know besides the points.
@@ -193,7 +197,9 @@ impl Sorter {
             self.counts[c + 1] += self.counts[c];
         }
         // Cut: at least MIN_COLUMNS columns and about BAND_POINTS points each; a short rest joins the last band.
-        let mut cuts = vec![0];
+        let mut cuts = std::mem::take(&mut self.cuts);
+        cuts.clear();
+        cuts.push(0);
         let mut last = 0;
         for c in 1..=base_columns {
             let points = self.counts[c] - self.counts[last];
@@ -219,11 +225,13 @@ impl Sorter {
             band.inertia.resize(reach, [0.0; 4]);
             band.force.clear();
             band.force.resize(reach, [0.0; 2]);
+            band.field_force.clear();
             band.sums = BandSums::default();
         }
         for body in 0..bodies {
             self.place(body, &cuts, bands, grid);
         }
+        self.cuts = cuts;
     }
 
     fn place(&mut self, body: usize, cuts: &[usize], bands: &mut [Band], grid: &ActiveGrid) {
@@ -247,12 +255,13 @@ impl Sorter {
             next = end;
         }
         // First offset of each band, to turn global order into an index within the band.
-        let firsts: Vec<u32> = cuts.iter().map(|&c| self.offsets[grid.column_start(c + DRIFT)]).collect();
+        self.firsts.clear();
+        self.firsts.extend(cuts.iter().map(|&c| self.offsets[grid.column_start(c + DRIFT)]));
         for (p, cell) in all.iter().zip(cells) {
             let slot = &mut self.offsets[key(cell)];
             let column = base_column(cell, grid);
             let b = cuts.partition_point(|&c| c <= column) - 1;
-            bands[b].points[body].set((*slot - firsts[b]) as usize, p);
+            bands[b].points[body].set((*slot - self.firsts[b]) as usize, p);
             *slot += 1;
         }
         for band in bands {

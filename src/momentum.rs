@@ -23,11 +23,13 @@ struct Chunk {
     tallies: Vec<Tally>,
     damping: Drag,
     side_walls: Drag,
+    field: Drag,
     inertia: Vec<[f64; 4]>,
     force: Vec<[f64; 2]>,
+    field_force: Vec<[f64; 2]>,
 }
 
-/// Impulse and work of a drag on the material in one step.
+/// Impulse and work of a distributed force on the material in one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Drag {
     /// N s.
@@ -49,6 +51,17 @@ impl Drag {
         self.impulse[1] += other.impulse[1];
         self.work += other.work;
     }
+}
+
+/// Impulse and work of everything that acts throughout the material but gravity.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Distributed {
+    /// Mass-proportional damping.
+    pub damping: Drag,
+    /// Side-wall friction.
+    pub side_walls: Drag,
+    /// A field of accelerations, where one is set.
+    pub field: Drag,
 }
 
 /// What acts on every node alike.
@@ -110,21 +123,23 @@ impl NodeSolver {
         forces: BodyForces,
         dt: f64,
         boundary_tallies: &mut [Tally],
-    ) -> (Drag, Drag) {
+    ) -> Distributed {
         self.for_each(grid, |chunk, mass, motion, velocity| {
             chunk.sum_inertia(bands);
             chunk.sum_force(bands);
+            chunk.sum_field(bands);
             chunk.solve(boundaries, forces, dt, mass, motion, velocity);
         });
-        let (mut damping, mut side_walls) = (Drag::default(), Drag::default());
+        let mut all = Distributed::default();
         for chunk in &self.chunks {
             for (sum, tally) in boundary_tallies.iter_mut().zip(&chunk.tallies) {
                 sum.add(tally);
             }
-            damping.merge(&chunk.damping);
-            side_walls.merge(&chunk.side_walls);
+            all.damping.merge(&chunk.damping);
+            all.side_walls.merge(&chunk.side_walls);
+            all.field.merge(&chunk.field);
         }
-        (damping, side_walls)
+        all
     }
 
     /// Velocities from the momentum that the points carry after their update (MUSL), for the stress update.
@@ -185,6 +200,22 @@ impl Chunk {
         }
     }
 
+    /// Adds a body-force field, if there is one, to the internal force.
+    fn sum_field(&mut self, bands: &[Band]) {
+        self.field_force.clear();
+        for band in bands.iter().filter(|b| !b.field_force.is_empty()) {
+            self.field_force.resize(self.force.len(), [0.0; 2]);
+            if let Some((to, from)) = overlap(self.first, self.force.len(), band.first_node, band.field_force.len()) {
+                for (node, part) in to.zip(&band.field_force[from]) {
+                    for d in 0..2 {
+                        self.field_force[node][d] += part[d];
+                        self.force[node][d] += part[d];
+                    }
+                }
+            }
+        }
+    }
+
     /// v = v + dt (f/m + g), then drags, then contact.
     fn solve(
         &mut self,
@@ -198,6 +229,7 @@ impl Chunk {
         self.tallies.fill(Tally::default());
         self.damping = Drag::default();
         self.side_walls = Drag::default();
+        self.field = Drag::default();
         let mut next_hold = 0;
         for i in 0..self.inertia.len() {
             let [m, px, py, side_friction] = self.inertia[i];
@@ -239,6 +271,9 @@ impl Chunk {
             }
             if side_friction > 0.0 {
                 self.side_walls.add(braked, mean);
+            }
+            if let Some(f) = self.field_force.get(i) {
+                self.field.add([f[0] * dt, f[1] * dt], mean);
             }
             motion[i] = [v[0], v[1], v[0] - old[0], v[1] - old[1]];
             velocity[i] = v;

@@ -61,6 +61,16 @@ pub struct Numerics {
     pub pic: PicShare,
 }
 
+/// A field of accelerations (m/s2), given a point and the time (s).
+#[derive(Clone)]
+pub struct AccelerationField(pub std::sync::Arc<dyn Fn(&Particle, f64) -> [f64; 2] + Send + Sync>);
+
+impl std::fmt::Debug for AccelerationField {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("AccelerationField")
+    }
+}
+
 /// Everything that a simulation starts from.
 #[derive(Debug, Clone)]
 pub struct Scene {
@@ -132,6 +142,7 @@ pub struct Simulation {
     side_friction: f64,
     boundaries: Vec<Boundary>,
     forces: BodyForces,
+    field: Option<AccelerationField>,
     mass: f64,
 
     bands: Vec<Band>,
@@ -172,6 +183,7 @@ impl Simulation {
             numerics: scene.numerics,
             side_friction: 2.0 * scene.side_wall_friction / scene.thickness,
             forces: BodyForces { gravity: scene.gravity, damping: 0.0 },
+            field: None,
             mass,
             speeds: vec![0.0; bodies.len()],
             step_tallies: vec![Tally::default(); boundaries.len()],
@@ -242,6 +254,7 @@ impl Simulation {
     fn particles_to_grid(&mut self, what: Scatter) {
         let map = NodeMap::new(&self.grid);
         let (bodies, shape, side) = (&self.bodies, self.numerics.shape, self.side_friction);
+        let (field, time) = (self.field.as_ref(), self.time);
         self.bands.par_iter_mut().with_max_len(1).for_each(|band| {
             if what != Scatter::Force {
                 band.inertia.fill([0.0; 4]);
@@ -263,13 +276,23 @@ impl Simulation {
                     &mut band.force,
                 );
             }
+            if let Some(AccelerationField(field)) = field.filter(|_| what != Scatter::Inertia) {
+                band.field_force.clear();
+                band.field_force.resize(band.force.len(), [0.0; 2]);
+                for (body, points) in bodies.iter().zip(&band.points) {
+                    let l = shape.half_width(body.points_per_direction);
+                    let at = |p: &Particle| field(p, time);
+                    let (first, m) = (band.first_node, body.point_mass);
+                    transfer::scatter_field(l, &map, m, &at, points, first, &mut band.field_force);
+                }
+            }
         });
     }
 
     /// Momentum balance and contact at the nodes; books what acted from outside.
     fn solve_momentum(&mut self, dt: f64) {
         self.step_tallies.fill(Tally::default());
-        let (damping, side_walls) =
+        let distributed =
             self.nodes.solve(&mut self.grid, &self.bands, &self.boundaries, self.forces, dt, &mut self.step_tallies);
         let ledger = &mut self.ledger;
         for d in 0..2 {
@@ -281,8 +304,9 @@ impl Simulation {
             sum.add(tally);
             ledger.impulse_scale += tally.impulse[0].abs() + tally.impulse[1].abs();
         }
-        ledger.damping.merge(&damping);
-        ledger.side_walls.merge(&side_walls);
+        ledger.damping.merge(&distributed.damping);
+        ledger.side_walls.merge(&distributed.side_walls);
+        ledger.field.merge(&distributed.field);
     }
 
     /// g2p: new velocities and displacements; for MUSL also their momentum, back on the grid.
@@ -385,6 +409,9 @@ impl Simulation {
         self.mass -= m;
         let ledger = &mut self.ledger;
         ledger.departed_mass += m;
+        for (behind, b) in ledger.departed_behind.iter_mut().zip(&self.boundaries) {
+            *behind += if b.face_coordinates(p.x).0 < 0.0 { m } else { 0.0 };
+        }
         ledger.departed_energy += 0.5 * m * p.speed() * p.speed() + elastic + m * potential(&self.forces.gravity, &p.x);
         // The elastic energy leaves the stock without being dissipated.
         ledger.internal_work -= elastic;
@@ -516,6 +543,12 @@ impl Simulation {
     /// Mass-proportional damping, 1/s.
     pub fn set_damping(&mut self, rate: f64) {
         self.forces.damping = rate;
+    }
+
+    /// Adds a field of accelerations to gravity, as manufactured solutions need, or removes it.
+    pub fn set_field(&mut self, field: Option<AccelerationField>) {
+        self.field = field;
+        self.bands.iter_mut().for_each(|band| band.field_force.clear());
     }
 
     /// Moves a boundary at a velocity, m/s. Nodes it reaches are found at the next sort, so keep it slow against h per sort.

@@ -5,11 +5,16 @@
 //! in [`RUNGS`]. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
 //! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
 
+pub mod celerity;
+pub mod drucker_prager_point;
+pub mod earth_pressure;
+pub mod energy;
 pub mod exactness;
 pub mod fault;
 pub mod report;
 pub mod scene;
 pub mod self_weight;
+pub mod sliding_block;
 
 pub use fault::{Fault, FaultKind};
 
@@ -39,7 +44,7 @@ pub struct Rung {
     pub title: &'static str,
     /// Runs it.
     pub run: fn(&Fault) -> Result<Outcome, RungFailure>,
-    /// Faults, with their factors, that it claims to catch.
+    /// Faults that it claims to catch, with their factors f; 2 - f is tried as well.
     pub covers: &'static [(FaultKind, f64)],
 }
 
@@ -76,4 +81,12 @@ impl Outcome {
 }
 
 /// The ladder, from the bottom.
-pub const RUNGS: &[Rung] = &[exactness::RUNG, self_weight::RUNG];
+pub const RUNGS: &[Rung] = &[
+    exactness::RUNG,
+    self_weight::RUNG,
+    sliding_block::RUNG,
+    drucker_prager_point::RUNG,
+    celerity::RUNG,
+    energy::RUNG,
+    earth_pressure::RUNG,
+];

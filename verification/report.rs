@@ -6,6 +6,11 @@ use crate::check::{Check, Expected, significant};
 /// Significant digits in reports.
 pub const DIGITS: usize = 9;
 
+/// Everything that a rung leaves behind, as (name without extension, CSV text): its checks, then its tables.
+pub fn files(name: &str, outcome: &Outcome) -> Vec<(String, String)> {
+    std::iter::once((name.to_string(), checks_csv(outcome))).chain(outcome.tables.iter().cloned()).collect()
+}
+
 /// The checks of an outcome as CSV, one a line.
 pub fn checks_csv(outcome: &Outcome) -> String {
     let mut text =

@@ -16,15 +16,17 @@ pub enum Friction {
     Coulomb(f64),
     /// Whatever is needed, as long as the material presses on the boundary.
     Rough,
+    /// Whatever is needed, also against separation: a clamp.
+    Bonded,
 }
 
 impl Friction {
-    /// The Coulomb coefficient; infinite where the boundary is rough.
+    /// The Coulomb coefficient; infinite where nothing slides.
     pub fn coefficient(self) -> f64 {
         match self {
             Friction::Smooth => 0.0,
             Friction::Coulomb(mu) => mu,
-            Friction::Rough => f64::INFINITY,
+            Friction::Rough | Friction::Bonded => f64::INFINITY,
         }
     }
 }
@@ -79,6 +81,8 @@ pub struct Boundary {
     pub friction: Friction,
     /// Velocity of the boundary, m/s. Moves the solid, too.
     pub velocity: Vector2<f64>,
+    /// How far it has moved, m.
+    pub travel: Vector2<f64>,
     /// For a gate: how it opens.
     pub opening: Option<Opening>,
     /// Free height below a gate now, m; infinite when it is gone.
@@ -107,6 +111,7 @@ impl Boundary {
             tangent: Vector2::new(normal.y, -normal.x),
             friction,
             velocity: Vector2::zeros(),
+            travel: Vector2::zeros(),
             opening: None,
             free_below: 0.0,
             released: false,
@@ -179,8 +184,12 @@ impl Boundary {
 
     /// How the boundary holds a node at `x`, if it does. `tolerance` (m) decides what lies on a surface; `buried` says that the
     /// node lies inside a plane, where walls continue below their foot.
-    pub fn hold(&self, x: [f64; 2], tolerance: f64, buried: bool) -> Option<Contact> {
-        let (d, s) = self.face_coordinates(x);
+    ///
+    /// A boundary that has moved keeps its nodes until it has moved by half a cell (`spacing`, m): they carry its velocity, so a
+    /// small stroke acts at once, and a large one advances from node to node.
+    pub fn hold(&self, x: [f64; 2], spacing: f64, tolerance: f64, buried: bool) -> Option<Contact> {
+        let beyond = self.travel - (self.travel / spacing).map(f64::round) * spacing;
+        let (d, s) = self.face_coordinates((Vector2::from(x) + beyond).into());
         let normal = match self.solid {
             Solid::HalfSpace { .. } => (d <= tolerance).then_some(self.normal)?,
             Solid::Slab { height, thickness, face_only, .. } => {
@@ -217,6 +226,7 @@ impl Boundary {
             }
         }
         let shift = self.velocity * dt;
+        self.travel += shift;
         match &mut self.solid {
             Solid::HalfSpace { point } => *point += shift,
             Solid::Slab { foot, .. } => *foot += shift,

@@ -5,7 +5,7 @@
 //! held by several boundaries finds all impulses together by projected Gauss-Seidel iteration (Jean 1999), so that a corner is
 //! no special case.
 
-use super::Boundary;
+use super::{Boundary, Friction};
 use crate::grid::ActiveGrid;
 
 /// Iterations for a node held by more than one boundary; perpendicular faces need two.
@@ -26,6 +26,8 @@ pub struct Hold {
     pub arm: [f64; 2],
     /// Friction coefficient.
     friction: f64,
+    /// Whether the node cannot separate.
+    bonded: bool,
     /// Velocity of the boundary, m/s.
     wall: [f64; 2],
     /// Normal and tangential impulse of the step, N s.
@@ -72,7 +74,7 @@ pub fn find_holds(boundaries: &[Boundary], grid: &ActiveGrid, holds: &mut Vec<Ho
     for (node, x) in grid.nodes() {
         let buried = boundaries.iter().any(|b| b.height().is_infinite() && b.depth(x) >= -tolerance);
         for (index, b) in boundaries.iter().enumerate() {
-            if let Some(contact) = b.hold(x, tolerance, buried) {
+            if let Some(contact) = b.hold(x, grid.spacing, tolerance, buried) {
                 let foot = b.foot();
                 holds.push(Hold {
                     node: node as u32,
@@ -81,6 +83,7 @@ pub fn find_holds(boundaries: &[Boundary], grid: &ActiveGrid, holds: &mut Vec<Ho
                     along: contact.along,
                     arm: [x[0] - foot.x, x[1] - foot.y],
                     friction: b.friction.coefficient(),
+                    bonded: b.friction == Friction::Bonded,
                     wall: b.velocity.into(),
                     impulse: [0.0; 2],
                     state: HoldState::Slipping,
@@ -103,16 +106,21 @@ impl Hold {
         let [nx, ny] = self.normal;
         let rel = [v[0] - self.wall[0], v[1] - self.wall[1]];
         let approach = rel[0] * nx + rel[1] * ny;
-        let normal = (self.impulse[0] - m * approach).max(0.0);
+        let stop = self.impulse[0] - m * approach;
+        let normal = if self.bonded { stop } else { stop.max(0.0) };
         let change = (normal - self.impulse[0]) / m;
         self.impulse[0] = normal;
         let sliding = rel[0] * ny - rel[1] * nx;
         let stick = self.impulse[1] - m * sliding;
         // Smooth boundaries and open contacts have no friction; 0 x infinity must not arise.
-        let limit = if normal > 0.0 { self.friction * normal } else { 0.0 };
+        let limit = match () {
+            () if self.bonded => f64::INFINITY,
+            () if normal > 0.0 => self.friction * normal,
+            () => 0.0,
+        };
         let tangential = stick.clamp(-limit, limit);
         self.state = match () {
-            () if normal <= 0.0 => HoldState::Apart,
+            () if normal <= 0.0 && !self.bonded => HoldState::Apart,
             () if limit > 0.0 && stick.abs() <= limit => HoldState::Sticking,
             () => HoldState::Slipping,
         };

@@ -176,7 +176,8 @@ pub struct Tilt {
 pub struct Run {
     /// The run ends at this time after the gate opens, s, positive.
     pub end_time_s: f64,
-    /// End earlier, when the kinetic energy is below 1e-4 of what was released and the force is steady. Default true.
+    /// End earlier, when the kinetic energy is below 1e-4 of what was released, forces balance to 0.2 % of the weight and the
+    /// force on the barrier is steady. Default true.
     #[serde(default = "yes")]
     pub stop_at_rest: bool,
 }

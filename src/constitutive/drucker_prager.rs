@@ -105,11 +105,16 @@ impl Law for DruckerPrager {
         let tau_trial = (0.5 * (dx * dx + dy * dy + dz * dz) + trial.xy * trial.xy).sqrt();
 
         // Return to the cone along the flow direction, then, where that ends beyond the cut-off, to the cut-off or its edge.
-        // Material that is open has lost its tensile strength.
-        let cap = if still_open > 0.0 { min(0.0, self.tension_cutoff) } else { self.tension_cutoff };
         let excess = max(0.0, tau_trial + self.friction * mean_trial - self.cohesion);
         let multiplier = excess * (1.0 / (shear + bulk * self.friction * self.dilatancy));
         let mean_cone = mean_trial - bulk * self.dilatancy * multiplier;
+        // Dilatancy, too, fills what is open before it presses.
+        let filled = max(0.0, min(still_open, -mean_cone * (1.0 / bulk)));
+        let mean_cone = if filled < still_open { max(mean_cone, 0.0) } else { mean_cone + bulk * filled };
+        let still_open = still_open - filled;
+        // Material that is open, or comes apart now, has lost its tensile strength.
+        let torn = still_open > 0.0 || (self.void_tracking && mean_cone > self.tension_cutoff);
+        let cap = if torn { min(0.0, self.tension_cutoff) } else { self.tension_cutoff };
         let mean = min(mean_cone, cap);
         let tau = max(0.0, min(tau_trial, self.cohesion - self.friction * mean));
 

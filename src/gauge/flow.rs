@@ -80,7 +80,7 @@ pub fn stations(simulation: &Simulation, at: &[f64]) -> Vec<(f64, f64)> {
 pub struct WallState {
     /// Highest point within 1.5 cells of the face, m above the foot.
     pub run_up: f64,
-    /// Mass behind the face, kg: it has gone over.
+    /// Mass behind the face, there or already out of the domain, kg: it has gone over.
     pub overtopped: f64,
 }
 
@@ -88,7 +88,8 @@ pub struct WallState {
 pub fn wall_state(simulation: &Simulation, boundary: usize) -> WallState {
     let b = &simulation.boundaries()[boundary];
     let h = simulation.spacing();
-    let mut state = WallState::default();
+    let gone = simulation.ledger().departed_behind[boundary];
+    let mut state = WallState { overtopped: gone, ..WallState::default() };
     for (body, p) in simulation.particles() {
         let (d, s) = b.face_coordinates(p.x);
         if d < -h {

@@ -17,6 +17,8 @@ pub struct Ledger {
     pub damping: Drag,
     /// Side-wall friction.
     pub side_walls: Drag,
+    /// A field of accelerations, where one is set.
+    pub field: Drag,
     /// Work of the stresses on the strains, J.
     pub internal_work: f64,
     /// Kinetic energy taken by the PIC share of the velocity update, J.
@@ -27,6 +29,8 @@ pub struct Ledger {
     pub departed_energy: f64,
     /// Mass that left the domain, kg.
     pub departed_mass: f64,
+    /// The part of it that lay behind the face of each boundary, kg: what went over a barrier and on.
+    pub departed_behind: Vec<f64>,
     /// Sum of the magnitudes of all impulses, N s: the scale on which closure is judged.
     pub impulse_scale: f64,
 }
@@ -34,14 +38,19 @@ pub struct Ledger {
 impl Ledger {
     /// An empty ledger for `boundaries` boundaries.
     pub fn new(boundaries: usize) -> Self {
-        Self { boundaries: vec![Tally::default(); boundaries], ..Self::default() }
+        Self {
+            boundaries: vec![Tally::default(); boundaries],
+            departed_behind: vec![0.0; boundaries],
+            ..Self::default()
+        }
     }
 
     /// Momentum that everything together has given to the material since the ledger was opened, N s.
     pub fn impulse(&self) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (d, s) in sum.iter_mut().enumerate() {
-            *s = self.gravity[d] + self.damping.impulse[d] + self.side_walls.impulse[d] - self.departed_momentum[d]
+            *s = self.gravity[d] + self.damping.impulse[d] + self.side_walls.impulse[d] + self.field.impulse[d]
+                - self.departed_momentum[d]
                 + self.boundaries.iter().map(|b| b.impulse[d]).sum::<f64>();
         }
         sum
@@ -86,6 +95,8 @@ pub struct EnergyBalance {
     pub side_walls: f64,
     /// Carried out of the domain.
     pub outflow: f64,
+    /// Given to a field of accelerations; negative where it drives the material.
+    pub field: f64,
     /// What was there when the ledger was opened, less all of the above.
     pub residual: f64,
     /// Total when the ledger was opened.
@@ -110,6 +121,7 @@ impl EnergyBalance {
             damping: -ledger.damping.work,
             side_walls: -ledger.side_walls.work,
             outflow: ledger.departed_energy - (datum[0] - datum[1]),
+            field: -ledger.field.work,
             residual: 0.0,
             initial,
         };
@@ -129,5 +141,6 @@ impl EnergyBalance {
             + self.damping
             + self.side_walls
             + self.outflow
+            + self.field
     }
 }

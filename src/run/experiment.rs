@@ -18,6 +18,8 @@ const SAMPLES_PER_LEDGER: u64 = 10;
 const REST_ENERGY: f64 = 1e-4;
 /// Largest change of the mean force between two windows at rest, as a share of it.
 const REST_FORCE: f64 = 0.01;
+/// Largest mean unbalanced force in a window at rest, as a share of the weight.
+const REST_IMBALANCE: f64 = 2e-3;
 /// Length of these windows, s; three of them give the static force.
 const REST_WINDOW: f64 = 0.1;
 /// Time after release before which nothing counts as rest, s.
@@ -310,7 +312,9 @@ impl Experiment {
                 samples = (self.simulation.time() / interval) as u64;
                 let row = self.sample();
                 recorder.history(&row)?;
-                rest.watch(&row, interval, released);
+                let stock = self.simulation.stock();
+                let weight = stock.mass * self.case.gravity.magnitude_m_per_s2;
+                rest.watch(&row, stock.momentum, interval, released, weight);
                 if samples.is_multiple_of(SAMPLES_PER_LEDGER) {
                     self.record_ledgers(recorder)?;
                 }
@@ -396,29 +400,34 @@ impl Experiment {
     }
 }
 
-/// Decides whether the material is at rest: little kinetic energy and a force that no longer changes.
+/// Decides whether the material is at rest: little kinetic energy, balanced forces, and a force that no longer changes.
 #[derive(Debug, Default)]
 struct RestWatch {
     kinetic: f64,
     window: Vec<f64>,
-    means: Vec<f64>,
+    last_mean: Option<f64>,
+    momentum: [f64; 2],
     quiet: usize,
     at_rest: bool,
 }
 
 impl RestWatch {
-    fn watch(&mut self, row: &HistoryRow, interval: f64, released: f64) {
+    fn watch(&mut self, row: &HistoryRow, momentum: [f64; 2], interval: f64, released: f64, weight: f64) {
         self.kinetic = row.kinetic;
         self.window.push(row.normal);
-        if self.window.len() as f64 * interval < REST_WINDOW {
+        let length = self.window.len() as f64 * interval;
+        if length < REST_WINDOW {
             return;
         }
         let mean = self.window.iter().sum::<f64>() / self.window.len() as f64;
         self.window.clear();
-        let steady = self.means.last().is_some_and(|last| (mean - last).abs() <= REST_FORCE * mean.abs().max(1e-9));
-        self.means.push(mean);
+        let steady = self.last_mean.is_some_and(|last| (mean - last).abs() <= REST_FORCE * mean.abs().max(1e-9));
+        let change = (momentum[0] - self.momentum[0]).hypot(momentum[1] - self.momentum[1]);
+        let balanced = change <= REST_IMBALANCE * weight * length;
+        self.last_mean = Some(mean);
+        self.momentum = momentum;
         let slow = row.kinetic <= REST_ENERGY * released;
-        self.quiet = if slow && steady && row.time >= REST_NOT_BEFORE { self.quiet + 1 } else { 0 };
+        self.quiet = if slow && balanced && steady && row.time >= REST_NOT_BEFORE { self.quiet + 1 } else { 0 };
         self.at_rest = self.quiet >= 3;
     }
 }

@@ -49,8 +49,15 @@ pub fn prepare_directory(directory: &Path) -> Result<(), String> {
     })
 }
 
-/// Runs a case into an empty folder.
-pub(super) fn run_into(case: &Case, directory: &Path, progress: &mut ProgressFn) -> Result<Summary, RunError> {
+/// Runs a case into an empty folder; returns what was recorded.
+///
+/// # Errors
+/// What stopped the run; the folder then holds what was computed.
+pub fn run_into(
+    case: &Case,
+    directory: &Path,
+    progress: &mut ProgressFn,
+) -> Result<(Experiment, Records, Summary), RunError> {
     let mut experiment = Experiment::new(case);
     let mut folder = Folder::create(directory, &experiment)?;
     let end = experiment.run(&mut folder, progress);
@@ -66,7 +73,7 @@ pub(super) fn run_into(case: &Case, directory: &Path, progress: &mut ProgressFn)
     end?;
     written?;
     drawn?;
-    Ok(summary)
+    Ok((experiment, folder.records, summary))
 }
 
 /// Draws all figures of a run from its tables, leaving out those whose table has no row yet.

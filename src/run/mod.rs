@@ -26,7 +26,7 @@ pub fn run(case: &Case, out: Option<&Path>, progress: &mut ProgressFn) -> Result
     // On a thread of the pool: steps are short, and waking the pool from outside for each part of one costs more than it.
     rayon::scope(|_| match out {
         None => run_in_memory(case, progress).map(|(_, _, summary)| summary),
-        Some(directory) => files::run_into(case, directory, progress),
+        Some(directory) => files::run_into(case, directory, progress).map(|(_, _, summary)| summary),
     })
 }
 

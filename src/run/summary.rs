@@ -1,7 +1,7 @@
 //! What a run says: inputs resolved, results, ledgers, warnings.
 
 use super::experiment::{End, Experiment};
-use super::records::{HistoryRow, Records};
+use super::records::{HistoryRow, MomentumRow, Records};
 use crate::boundary::Friction;
 use crate::case::Case;
 use serde::Serialize;
@@ -122,7 +122,7 @@ pub struct DepositResults {
     pub mobilised_share: f64,
     /// Least and greatest force along the flume that equilibrium allows: m g sin -/+ mu N.
     pub friction_limits_n: [f64; 2],
-    /// Force along the flume on all boundaries but the base, N.
+    /// Mean force that the material exerts along the flume on all boundaries but the base over the last 0.3 s, N.
     pub held_along_flume_n: f64,
     /// Weight plus base friction less what is held, N: zero at rest.
     pub equilibrium_residual_n: f64,
@@ -354,16 +354,22 @@ fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults>
     let g = sim.gravity();
     let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
     let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
-    // A moving particle counts fully; what went over the barrier or left the domain does not.
-    let mass = sim.mass() - last.overtopped;
+    // What lies behind the barrier rests on the base, too, but does not push.
+    let gone = sim.ledger().departed_behind[experiment.barrier()?.boundary()];
+    let mass = sim.mass() - (last.overtopped - gone);
     let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
     let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
     let weight = mass * along;
     let limit = mu * base_normal;
-    let barrier = &sim.boundaries()[experiment.barrier()?.boundary()];
-    let normal = late_mean(&records.history, 0.0, 1.0, |r| r.normal);
-    let shear = late_mean(&records.history, 0.0, 1.0, |r| r.tangential);
-    let held = -normal * barrier.normal.dot(&base.tangent) + shear * barrier.tangent.dot(&base.tangent);
+    // What the other boundaries take, from the ledger: the barrier, and whatever else the deposit leans on.
+    let end = records.momentum.last()?;
+    let start = records.momentum.iter().find(|r| r.time >= end.time - STATIC_WINDOW)?;
+    let base_index = experiment.base()?;
+    let push = |row: &MomentumRow| -> f64 {
+        let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| *b != base_index);
+        others.map(|(_, t)| t.impulse[0] * base.tangent.x + t.impulse[1] * base.tangent.y).sum()
+    };
+    let held = -(push(end) - push(start)) / (end.time - start.time).max(f64::MIN_POSITIVE);
     Some(DepositResults {
         weight_along_flume_n: weight,
         theoretical_static_force_n: mass * (along - mu * across),

@@ -48,6 +48,19 @@ pub fn plane_strain_angle(q: f64, q_psi: f64) -> f64 {
     asin(plane_strain_sine(q, q_psi))
 }
 
+/// Slope q_psi of the potential for a dilatancy angle (rad) in plane strain, sin(psi) / sqrt(1 + sin^2(psi)/3): the in-plane
+/// volume gained per shear at failure is then sin(psi).
+pub fn plane_strain_potential(dilatancy_angle: f64) -> f64 {
+    let s = sin(dilatancy_angle);
+    s / (1.0 + s * s / 3.0).sqrt()
+}
+
+/// Slope q that fails at a friction angle (rad) in plane strain, given q_psi: the inverse of [`plane_strain_sine`].
+pub fn plane_strain_slope(friction_angle: f64, q_psi: f64) -> f64 {
+    let s = sin(friction_angle);
+    s / ((1.0 - q_psi * q_psi / 3.0).sqrt() + s * q_psi / 3.0)
+}
+
 /// Ratio of the in-plane principal stresses at failure in plane strain, without cohesion.
 pub fn plane_strain_ratio(q: f64, q_psi: f64) -> f64 {
     let s = plane_strain_sine(q, q_psi);
@@ -130,6 +143,8 @@ mod tests {
         let alpha = t / (9.0 + 12.0 * t * t).sqrt();
         near(alpha, 0.16456, 5e-6);
         near(plane_strain_angle(3.0 * alpha, 3.0 * alpha), PHI, 1e-12);
+        near(plane_strain_potential(PHI), 3.0 * alpha, 1e-12);
+        near(plane_strain_slope(PHI, 3.0 * alpha), 3.0 * alpha, 1e-12);
         // Simple shear then gives Coulomb's line, and the same dilatancy angle.
         near(simple_shear_dilatancy(3.0 * alpha), PHI, 1e-12);
         near(simple_shear_ratio(3.0 * alpha, 3.0 * alpha), t, 1e-12);

@@ -6,7 +6,7 @@
 #![allow(unsafe_code)]
 
 use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
-use crate::body::Points;
+use crate::body::{Particle, Points};
 use crate::constitutive::{AnyLaw, Law};
 use crate::layout::BandSums;
 use crate::shape::{AveragedHat, Hat, Shape1d};
@@ -175,6 +175,23 @@ pub fn scatter(
         wide::scatter_shape(what, shape, map, constants, points, first_node, inertia, force);
     } else {
         wide::scatter_shape(what, Hat, map, constants, points, first_node, inertia, force);
+    }
+}
+
+/// Particle to grid: the force of a field of accelerations (m/s2) on points of the given mass.
+pub fn scatter_field(
+    half_width: f64,
+    map: &NodeMap,
+    mass: f64,
+    acceleration: &dyn Fn(&Particle) -> [f64; 2],
+    points: &Points,
+    first_node: usize,
+    force: &mut [[f64; 2]],
+) {
+    if half_width > 0.0 {
+        kernels::scatter_field(AveragedHat::new(half_width), map, mass, acceleration, points, first_node, force);
+    } else {
+        kernels::scatter_field(Hat, map, mass, acceleration, points, first_node, force);
     }
 }
 

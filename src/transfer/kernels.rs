@@ -1,7 +1,7 @@
 //! The loops over material points.
 
 use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
-use crate::body::{Block, Points};
+use crate::body::{Block, Particle, Points};
 use crate::constitutive::{Increment, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane, floor_to_int};
 use crate::layout::BandSums;
@@ -138,6 +138,31 @@ pub fn scatter<S: Shape1d, const INERTIA: bool, const FORCE: bool>(
                 }
                 if FORCE {
                     add_three(three_mut(force, first), &new_force[i]);
+                }
+            }
+        }
+    }
+}
+
+/// Particle to grid: the force of a field of accelerations. Not in the hot path, so one point at a time.
+pub fn scatter_field<S: Shape1d>(
+    shape: S,
+    map: &NodeMap,
+    mass: f64,
+    acceleration: &dyn Fn(&Particle) -> [f64; 2],
+    points: &Points,
+    first_node: usize,
+    force: &mut [[f64; 2]],
+) {
+    for (block, n) in points.blocks() {
+        let stencil = Stencils::new(shape, map, block);
+        for l in 0..n {
+            let f = acceleration(&block.get(l)).map(|a| mass * a);
+            for i in 0..STENCIL {
+                let column = scaled(stencil.w[0][i][l], f);
+                let first = stencil.first(map, l, i) - first_node;
+                for (j, node) in three_mut(force, first).iter_mut().enumerate() {
+                    add_scaled(node, stencil.w[1][j][l], &column);
                 }
             }
         }

@@ -6,7 +6,9 @@
 mod dispatch;
 mod kernels;
 
-pub use dispatch::{VectorUnit, gather_velocity, limit_vector_unit, scatter, update_stress, vector_unit};
+pub use dispatch::{
+    VectorUnit, gather_velocity, limit_vector_unit, scatter, scatter_field, update_stress, vector_unit,
+};
 
 use crate::grid::ActiveGrid;
 
