@@ -1,4 +1,27 @@
-//! checkdam: skeleton.
+//! checkdam: the force of dry granular flow on barriers, by the material point method, with the checks that say how one knows.
+//!
+//! ```text
+//! case (TOML) -> Case (validated) -> Scene -> Simulation -> step() ... step()
+//!                                                 |   gauges and ledgers read
+//!                                                 v
+//!                                   tables -> CSV / VTK / SVG / checks
+//! ```
+//!
+//! **Scope.** Two dimensions, plane strain with a thickness; stress is always the full tensor. One velocity field, rigid
+//! boundaries with Coulomb friction. Linear elasticity and Drucker-Prager in rate form.
+//!
+//! **Conventions.** SI units. Tension is positive; the mean stress is tr(sigma)/3. Angles are radians, except in case files,
+//! where the field's name says degrees. A table's column names end in their units. Forces on a barrier are positive when the
+//! material pushes.
+//!
+//! **Determinism.** The same case gives the same bits on every run, for any number of threads and any vector unit: sums have a
+//! fixed order, there is no fused multiply-add, and transcendental functions come from `libm`.
+//!
+//! **Who knows whom.** [`theory`] imports nothing of the solver; [`constitutive`] knows one point and no grid; [`gauge`] and
+//! [`ledger`] read and never touch; the solver ([`simulation`] and what it uses) knows neither files nor pictures.
+//!
+//! Start with [`simulation::Simulation::step`], which is the algorithm on one screen, or with [`run::run`].
+
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

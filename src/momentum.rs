@@ -207,9 +207,9 @@ impl Chunk {
             self.field_force.resize(self.force.len(), [0.0; 2]);
             if let Some((to, from)) = overlap(self.first, self.force.len(), band.first_node, band.field_force.len()) {
                 for (node, part) in to.zip(&band.field_force[from]) {
-                    for d in 0..2 {
-                        self.field_force[node][d] += part[d];
-                        self.force[node][d] += part[d];
+                    for (d, f) in part.iter().enumerate() {
+                        self.field_force[node][d] += f;
+                        self.force[node][d] += f;
                     }
                 }
             }

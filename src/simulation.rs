@@ -96,7 +96,7 @@ pub struct Scene {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "{what} at t = {time:.6e} s (step {step}): particle {id} of body `{body}` at x = {x:.6} m, y = {y:.6} m\n  \
-         velocity ({vx:.4e}, {vy:.4e}) m/s, volume ratio {volume_ratio:.4e}, mean stress {mean_stress:.4e} Pa\n  \
+         speed {speed:.4e} m/s, volume ratio {volume_ratio:.4e}, mean stress {mean_stress:.4e} Pa\n  \
          the time step of {dt:.4e} s was limited by {limit}; a smaller `cfl` or a coarser grid may help"
 )]
 pub struct StepFailure {
@@ -107,17 +107,15 @@ pub struct StepFailure {
     /// Steps done.
     pub step: u64,
     /// Name of the body.
-    pub body: String,
+    pub body: Box<str>,
     /// Number of the point in its body.
     pub id: u32,
     /// Position, m.
     pub x: f64,
     /// Position, m.
     pub y: f64,
-    /// Velocity, m/s.
-    pub vx: f64,
-    /// Velocity, m/s.
-    pub vy: f64,
+    /// Speed, m/s.
+    pub speed: f64,
     /// Current over reference volume.
     pub volume_ratio: f64,
     /// Mean stress, Pa.
@@ -125,7 +123,7 @@ pub struct StepFailure {
     /// Time step, s.
     pub dt: f64,
     /// What limited the time step, in words.
-    pub limit: String,
+    pub limit: Box<str>,
 }
 
 /// Volume ratio below which a point counts as inverted.
@@ -443,16 +441,15 @@ impl Simulation {
             what,
             time: self.time,
             step: self.steps,
-            body: self.bodies.get(body).map_or_else(String::new, |b| b.name.clone()),
+            body: self.bodies.get(body).map_or("", |b| &b.name).into(),
             id: p.id,
             x: p.x[0],
             y: p.x[1],
-            vx: p.v[0],
-            vy: p.v[1],
+            speed: p.speed(),
             volume_ratio: p.volume_ratio,
             mean_stress: p.state.stress.mean(),
             dt: self.time_step.dt,
-            limit: self.describe_limit(&self.time_step),
+            limit: self.describe_limit(&self.time_step).into(),
         }
     }
 

@@ -38,7 +38,7 @@ pub struct BarrierGauge {
     largest: f64,
     peak_force: Peak,
     peak_moment: Peak,
-    total: [f64; 2],
+    total_impulse: [f64; 2],
     bin_height: f64,
     profile: Vec<f64>,
     profile_duration: f64,
@@ -61,7 +61,7 @@ impl BarrierGauge {
             largest: 0.0,
             peak_force: Peak::default(),
             peak_moment: Peak::default(),
-            total: [0.0; 2],
+            total_impulse: [0.0; 2],
             bin_height,
             profile: vec![0.0; bins],
             profile_duration: 0.0,
@@ -79,8 +79,8 @@ impl BarrierGauge {
         let moment = -tally.moment * self.turn;
         self.impulse[0] += normal;
         self.impulse[1] += tangential;
-        self.total[0] += normal;
-        self.total[1] += tangential;
+        self.total_impulse[0] += normal;
+        self.total_impulse[1] += tangential;
         self.moment += moment;
         self.duration += dt;
         self.largest = self.largest.max(normal / dt);
@@ -149,8 +149,8 @@ impl BarrierGauge {
     }
 
     /// Impulse on the boundary since the start, normal and tangential, N s.
-    pub fn impulse(&self) -> [f64; 2] {
-        self.total
+    pub fn total_impulse(&self) -> [f64; 2] {
+        self.total_impulse
     }
 
     /// Index of the boundary.

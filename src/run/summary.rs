@@ -321,8 +321,8 @@ fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults>
         static_moment_n_m: static_moment,
         static_height_of_action_m: if static_force > 0.0 { static_moment / static_force } else { 0.0 },
         peak_moment_step_n_m: gauge.peak_moment().value,
-        impulse_normal_n_s: gauge.impulse()[0],
-        impulse_tangential_n_s: gauge.impulse()[1],
+        impulse_normal_n_s: gauge.total_impulse()[0],
+        impulse_tangential_n_s: gauge.total_impulse()[1],
         run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
         overtopped_kg: last.overtopped,
     })

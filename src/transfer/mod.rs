@@ -1,7 +1,7 @@
 //! Transfers between material points and grid nodes.
 //!
 //! Each transfer is one loop over the blocks of a band: weights of eight points at a time, then the nodes of one point after
-//! the other. [`kernels`] holds the loops, [`dispatch`] runs them with the widest vectors the processor has.
+//! the other. `kernels.rs` holds the loops, `dispatch.rs` runs them with the widest vectors the processor has.
 
 mod dispatch;
 mod kernels;
