@@ -1,10 +1,12 @@
 //! The command line: thin.
 
 mod check;
+mod console;
 mod progress;
 mod run;
 
 use clap::{Parser, Subcommand};
+use console::{say, tell};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -26,7 +28,10 @@ Start here:
   checkdam run   validation/flume/40deg.toml     run it into out/40deg
 The comments in validation/flume/40deg.toml explain every field of a case file.
 
-Exit codes: 0 done, 2 the input is at fault (nothing was written), 3 the run failed or was stopped (what was computed is there)."
+Exit codes:
+  0  done
+  2  the input is at fault; nothing was written
+  3  the run failed or was stopped; what was computed is in its folder"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -74,12 +79,12 @@ fn load(path: &std::path::Path) -> Result<checkdam::case::Case, ExitCode> {
     match checkdam::case::load(path) {
         Ok(loaded) => {
             for warning in &loaded.warnings {
-                eprintln!("{}\n", warning.trim_end());
+                tell!("{}\n", warning.trim_end());
             }
             Ok(loaded.case)
         }
         Err(error) => {
-            eprintln!("{}", error.to_string().trim_end());
+            tell!("{}", error.to_string().trim_end());
             Err(ExitCode::from(BAD_INPUT))
         }
     }

@@ -1,5 +1,6 @@
 //! Progress of a run: a bar on a terminal, plain lines elsewhere.
 
+use super::tell;
 use checkdam::run::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
@@ -56,26 +57,33 @@ impl Display {
         let seconds = (now - self.stage_start).as_secs_f64();
         let share = (p.time / p.end).clamp(0.0, 1.0);
         let rate = if seconds > 0.0 { (p.steps - self.stage_first_step) as f64 / seconds } else { 0.0 };
-        let left = if share > 0.0 && seconds > 0.5 { remaining(seconds * (1.0 - share) / share) } else { "?".into() };
-        let text = match p.stage {
-            Stage::Settle => format!("t {:.3} s, residual {:.1e}, {:.0} steps/s", p.time, p.residual, rate),
-            Stage::Tilt => format!("t {:.3} of {:.3} s, {:.0} steps/s, {left} left", p.time, p.end, rate),
+        let mut text = match p.stage {
+            Stage::Settle => format!("t {:.3} s, residual {:.1e}", p.time, p.residual),
+            Stage::Tilt => format!("t {:.3} of {:.3} s", p.time, p.end),
             Stage::Run => format!(
-                "t {:.3} of at most {:.3} s, force {:.1} N, kinetic {:.2} % of E0, {:.0} steps/s, at most {left} left",
+                "t {:.3} of at most {:.3} s, force {:.1} N, kinetic {:.2} % of E0",
                 p.time,
                 p.end,
                 p.force,
-                100.0 * p.residual,
-                rate
+                100.0 * p.residual
             ),
         };
+        if seconds > 0.5 {
+            text += &format!(", {rate:.0} steps/s");
+            let left = remaining(seconds * (1.0 - share) / share);
+            match p.stage {
+                Stage::Settle => {}
+                Stage::Tilt => text += &format!(", {left} left"),
+                Stage::Run => text += &format!(", at most {left} left"),
+            }
+        }
         match &self.bar {
             Some(bar) => {
                 bar.set_prefix(p.stage.name());
                 bar.set_position((share * TICKS as f64) as u64);
                 bar.set_message(text);
             }
-            None => eprintln!("{:>7}: {text}", p.stage.name()),
+            None => tell!("{:>7}: {text}", p.stage.name()),
         }
     }
 
@@ -90,6 +98,7 @@ impl Display {
 /// A time in words.
 pub fn remaining(seconds: f64) -> String {
     match seconds {
+        s if s < 9.5 => format!("{:.1} s", s.max(0.1)),
         s if s < 90.0 => format!("{s:.0} s"),
         s if s < 5400.0 => format!("{:.0} min", s / 60.0),
         s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),

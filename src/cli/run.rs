@@ -1,7 +1,7 @@
 //! `checkdam run`.
 
 use super::progress::Display;
-use super::{BAD_INPUT, ENDED_EARLY, load, use_threads};
+use super::{BAD_INPUT, ENDED_EARLY, load, say, tell, use_threads};
 use checkdam::run::{self, Summary, files};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
     };
     let directory = out.unwrap_or_else(|| Path::new("out").join(path.file_stem().unwrap_or_default()));
     if let Err(message) = files::prepare_directory(&directory) {
-        eprintln!("error: {message}");
+        tell!("error: {message}");
         return ExitCode::from(BAD_INPUT);
     }
     use_threads(threads);
@@ -28,36 +28,38 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
         if flag.swap(true, Ordering::SeqCst) {
             std::process::exit(130);
         }
-        eprintln!("\nstopping: writing what was computed (Ctrl-C again to quit at once)");
+        tell!("\nstopping: writing what was computed (Ctrl-C again to quit at once)");
     });
     if let Err(error) = handler {
-        eprintln!("warning: Ctrl-C will not end the run in order ({error})");
+        tell!("warning: Ctrl-C will not end the run in order ({error})");
     }
 
     let mut display = Display::new();
     let start = Instant::now();
     let mut steps = (0u64, 0usize);
+    let mut stopped = false;
     let result = run::run(&case, Some(&directory), &mut |p| {
         steps = (p.steps, p.particles);
         display.show(p);
-        !stop.load(Ordering::SeqCst)
+        stopped = stop.load(Ordering::SeqCst);
+        !stopped
     });
     display.clear();
     let seconds = start.elapsed().as_secs_f64();
     match result {
         Ok(summary) => {
             report(&summary, &directory);
-            println!(
+            say!(
                 "{:.1} s of wall time, {} steps, {:.1} million particle-steps per second",
                 seconds,
                 steps.0,
                 steps.0 as f64 * steps.1 as f64 / seconds / 1e6
             );
-            if stop.load(Ordering::SeqCst) { ExitCode::from(ENDED_EARLY) } else { ExitCode::SUCCESS }
+            if stopped { ExitCode::from(ENDED_EARLY) } else { ExitCode::SUCCESS }
         }
         Err(error) => {
-            eprintln!("error: {error}");
-            eprintln!("what was computed is in {}", directory.display());
+            tell!("error: {error}");
+            tell!("what was computed is in {}", directory.display());
             ExitCode::from(ENDED_EARLY)
         }
     }
@@ -65,22 +67,29 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
 
 /// The main results, for someone who looks at the terminal only.
 fn report(summary: &Summary, directory: &Path) {
-    println!("{}: {}", summary.case.title, summary.status);
+    say!("{}: {}", summary.case.title, summary.status);
     for f in &summary.front {
-        println!(
+        say!(
             "  front at {:.2} m: t = {:.3} s, {:.2} m/s, depth {:.3} m, Froude number {:.1}",
-            f.x_m, f.time_s, f.velocity_m_per_s, f.depth_m, f.froude
+            f.x_m,
+            f.time_s,
+            f.velocity_m_per_s,
+            f.depth_m,
+            f.froude
         );
     }
     if let Some(b) = &summary.barrier {
         if let Some(t) = b.arrival_time_s {
-            println!("  arrival at the barrier: t = {t:.3} s");
+            say!("  arrival at the barrier: t = {t:.3} s");
         }
-        println!(
+        say!(
             "  peak force: {:.1} N in a single step (t = {:.4} s), {:.1} N over 20 ms (t = {:.3} s)",
-            b.peak_force_step_n, b.peak_force_step_time_s, b.peak_force_20ms_n, b.peak_force_20ms_time_s
+            b.peak_force_step_n,
+            b.peak_force_step_time_s,
+            b.peak_force_20ms_n,
+            b.peak_force_20ms_time_s
         );
-        println!(
+        say!(
             "  static force: {:.1} N (from the stress of 1, 2, 3 layers: {:.1}, {:.1}, {:.1} N), acting {:.3} m above the foot",
             b.static_force_n,
             b.static_force_layers_n[0],
@@ -88,11 +97,11 @@ fn report(summary: &Summary, directory: &Path) {
             b.static_force_layers_n[2],
             b.static_height_of_action_m
         );
-        println!("  run-up: {:.3} m; over the barrier: {:.4} kg", b.run_up_m, b.overtopped_kg);
+        say!("  run-up: {:.3} m; over the barrier: {:.4} kg", b.run_up_m, b.overtopped_kg);
     }
     if let Some(d) = &summary.deposit {
-        println!(
-            "  at rest: m g sin = {:.1} N, base friction {:.1} of +-{:.1} N (mobilised share {:.2}); equilibrium allows {:.1} to {:.1} N",
+        say!(
+            "  at the end: m g sin = {:.1} N, base friction {:.1} of +-{:.1} N (mobilised share {:.2}); equilibrium allows {:.1} to {:.1} N",
             d.weight_along_flume_n,
             d.base_friction_n,
             d.base_friction_limit_n,
@@ -102,7 +111,7 @@ fn report(summary: &Summary, directory: &Path) {
         );
     }
     let e = &summary.energy;
-    println!(
+    say!(
         "  energy: E0 = {:.1} J; {:.1} % gravitational, {:.1} % plastic, {:.1} % friction at the end; residual {:.3} % (largest {:.3} %)",
         e.initial_j,
         100.0 * e.gravitational,
@@ -111,9 +120,10 @@ fn report(summary: &Summary, directory: &Path) {
         100.0 * e.residual,
         100.0 * e.residual_max
     );
-    println!("  momentum closes to {:.1e} of all impulses", summary.momentum.closure_max);
+    say!("  momentum closes to {:.1e} of all impulses", summary.momentum.closure_max);
     for warning in &summary.warnings {
-        println!("  note: {warning}");
+        say!("  note: {warning}");
     }
-    println!("results in {}: summary.toml, tables, figures, flow.pvd for ParaView", directory.display());
+    let frames = if summary.case.output.vtk_interval_s > 0.0 { ", flow.pvd for ParaView" } else { "" };
+    say!("results in {}: summary.toml, tables, figures{frames}", directory.display());
 }

@@ -107,6 +107,7 @@ fn advice(source: &io::Error) -> &'static str {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             "the disk is full: free some space or choose another output directory"
         }
+        io::ErrorKind::FileTooLarge => "the file reached the largest size allowed: raise the limit (ulimit -f)",
         io::ErrorKind::NotFound => "check that the path exists",
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "check the permissions of the file and its directory"

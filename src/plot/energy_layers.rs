@@ -93,20 +93,35 @@ pub(super) fn group(layers: Vec<Layer>) -> Vec<Layer> {
     kept
 }
 
-/// Lower and upper end of each layer at each instant: positive shares pile up from zero, negative ones down from it.
-pub(super) fn stack(layers: &[Layer], instants: usize) -> Vec<Vec<(f64, f64)>> {
-    let mut above = vec![0.0; instants];
-    let mut below = vec![0.0; instants];
-    let mut band = |layer: &Layer| {
-        let place = |(k, share): (usize, &f64)| {
-            let pile: &mut f64 = if *share >= 0.0 { &mut above[k] } else { &mut below[k] };
-            let from = *pile;
-            *pile += share;
-            (from.min(*pile), from.max(*pile))
+/// What a layer covers at an instant: from the near to the far end of its pile, above zero and below it. One of the two is empty.
+///
+/// A share that changes its sign leaves one pile for the other, and both outlines stay continuous.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Band {
+    pub(super) above: (f64, f64),
+    pub(super) below: (f64, f64),
+}
+
+impl Band {
+    /// The side that is not empty.
+    pub(super) fn larger(&self) -> (f64, f64) {
+        if self.below.0 > self.below.1 { self.below } else { self.above }
+    }
+}
+
+/// Piles up the layers at each instant: positive shares from zero up, negative ones from zero down.
+pub(super) fn stack(layers: &[Layer], instants: usize) -> Vec<Vec<Band>> {
+    let mut piles = vec![(0.0, 0.0); instants];
+    let mut bands = |layer: &Layer| {
+        let place = |((above, below), share): (&mut (f64, f64), &f64)| {
+            let near = (*above, *below);
+            *above += share.max(0.0);
+            *below += share.min(0.0);
+            Band { above: (near.0, *above), below: (near.1, *below) }
         };
-        layer.share.iter().enumerate().map(place).collect()
+        piles.iter_mut().zip(&layer.share).map(place).collect()
     };
-    layers.iter().map(&mut band).collect()
+    layers.iter().map(&mut bands).collect()
 }
 
 #[cfg(test)]
@@ -120,7 +135,18 @@ mod tests {
     #[test]
     fn negative_shares_stack_below_zero() {
         let layers = [layer("kinetic_j", &[60.0]), layer("contact_base_j", &[-2.0]), layer("pic_j", &[40.0])];
-        assert_eq!(stack(&layers, 1), [[(0.0, 60.0)], [(-2.0, 0.0)], [(60.0, 100.0)]]);
+        let band = |above, below| [Band { above, below }];
+        assert_eq!(
+            stack(&layers, 1),
+            [band((0.0, 60.0), (0.0, 0.0)), band((60.0, 60.0), (0.0, -2.0)), band((60.0, 100.0), (-2.0, -2.0)),]
+        );
+    }
+
+    #[test]
+    fn a_share_that_changes_sign_does_not_jump() {
+        let layers = [layer("kinetic_j", &[100.0, 100.0]), layer("contact_base_j", &[1e-9, -1e-9])];
+        let bands = stack(&layers, 2);
+        assert!(bands[1].iter().all(|b| (b.above.1 - 100.0).abs() < 1e-6 && b.below.1.abs() < 1e-6));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use plotters::style::text_anchor::HPos;
 
 use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
-use super::energy_layers::{Layer, columns, group, paint, stack, title};
+use super::energy_layers::{Band, Layer, columns, group, paint, stack, title};
 use super::labels::spread;
 use super::style::{
     Canvas, GREY, INK, SMALL_PX, Spot, UNIT, dashes, fill, line, render, stroke, text_width_px, units, write_at,
@@ -51,7 +51,7 @@ pub fn draw(energy_csv: impl AsRef<Path>, out_svg: impl AsRef<Path>) -> Result<(
     paint(&mut layers);
     let bands = stack(&layers, time.len());
 
-    let ends = bands.iter().flatten().flat_map(|(a, b)| [*a, *b]).chain(residual.iter().copied());
+    let ends = bands.iter().flatten().flat_map(|b| [b.above.1, b.below.1]).chain(residual.iter().copied());
     let (lo, hi) = ends.fold((0.0, 100.0), |(lo, hi): (f64, f64), v| (lo.min(v), hi.max(v)));
     // A strip below zero keeps the residual apart from the axis.
     let y = Axis::exact((1.1 * lo).min(-3.0), hi, 5);
@@ -63,15 +63,13 @@ pub fn draw(energy_csv: impl AsRef<Path>, out_svg: impl AsRef<Path>) -> Result<(
     render(out_svg.as_ref(), HEIGHT_PX, |canvas| {
         let frame = Frame::draw(canvas, &margins, (&x, "time (s)"), (&y, "share of the initial energy (%)"))?;
         let (left, right, top, bottom) = frame.bounds();
-        for (layer, band) in layers.iter().zip(&bands) {
-            area(canvas, &frame, &time, band, layer.colour)?;
-        }
+        areas(canvas, &frame, &time, &layers, &bands)?;
         dashes(canvas, (left, frame.spot(x.lo, 100.0).1), right, INK, 1.0)?;
         frame.series(canvas, &time, &residual, line(INK, 1.6))?;
 
         let mut outside = Vec::new();
         for (k, (layer, band)) in layers.iter().zip(&bands).enumerate() {
-            let (from, to) = band[band.len() - 1];
+            let (from, to) = band[band.len() - 1].larger();
             let spot = (right, frame.spot(x.hi, 0.5 * (from + to)).1);
             match inside(&frame, &time, band, &layer.name) {
                 // A share that is spent by the end has no height to point at.
@@ -118,28 +116,37 @@ fn pick(values: &[f64], rows: &[usize]) -> Vec<f64> {
     rows.iter().map(|k| values[*k]).collect()
 }
 
-/// Fills a layer, with a thin white line on top to part it from the next.
-fn area(
+/// Fills the layers, each from zero to its far end and the farthest first: neighbours overlap, so nothing shows between them.
+fn areas(
     canvas: &Canvas<'_>,
     frame: &Frame<'_>,
     time: &[f64],
-    band: &[(f64, f64)],
-    colour: RGBColor,
+    layers: &[Layer],
+    bands: &[Vec<Band>],
 ) -> Result<(), PlotError> {
-    let upper: Vec<Spot> = time.iter().zip(band).map(|(t, (_, to))| frame.spot(*t, *to)).collect();
-    let lower = time.iter().zip(band).rev().map(|(t, (from, _))| frame.spot(*t, *from));
-    let outline = upper.iter().copied().chain(lower).collect();
-    fill(canvas, outline, &colour)?;
-    stroke(canvas, upper, line(WHITE, 0.6))
+    for (layer, band) in layers.iter().zip(bands).rev() {
+        for side in [|b: &Band| b.above, |b: &Band| b.below] {
+            if band.iter().map(side).all(|(near, far)| near == far) {
+                continue;
+            }
+            let edge = time.iter().zip(band).map(|(t, b)| frame.spot(*t, side(b).1));
+            let mut outline: Vec<Spot> = edge.collect();
+            outline.push(frame.spot(time[time.len() - 1], 0.0));
+            outline.push(frame.spot(time[0], 0.0));
+            fill(canvas, outline, &layer.colour)?;
+        }
+    }
+    Ok(())
 }
 
 /// The middle of the roomiest place for `name` inside a layer, if there is one.
-fn inside(frame: &Frame<'_>, time: &[f64], band: &[(f64, f64)], name: &str) -> Option<Spot> {
+fn inside(frame: &Frame<'_>, time: &[f64], band: &[Band], name: &str) -> Option<Spot> {
     let half = units(0.5 * text_width_px(name, SMALL_PX) + 3.0);
     let edges: Vec<(i32, i32, i32)> = time
         .iter()
         .zip(band)
-        .map(|(t, (from, to))| (frame.spot(*t, *from), frame.spot(*t, *to)))
+        .map(|(t, b)| (t, b.larger()))
+        .map(|(t, (from, to))| (frame.spot(*t, from), frame.spot(*t, to)))
         .map(|(from, to)| (from.0, to.1, from.1))
         .collect();
     let (left, right, ..) = frame.bounds();

@@ -9,15 +9,15 @@ use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
 use super::labels::spread;
 use super::style::{
-    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SMALL_PX, Spot, TEXT_PX, UNIT, VERMILION, dashes, drawing, fill,
-    line, render, stroke, text_width_px, units, write_at,
+    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SMALL_PX, Spot, TEXT_PX, VERMILION, dashes, drawing, line, render,
+    stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
 /// A force to compare with, drawn as a horizontal line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceLine {
-    /// What it is, in a few words.
+    /// What it is, in a few words; may have line breaks.
     pub label: String,
     /// The force (N).
     pub value_n: f64,
@@ -29,8 +29,8 @@ const REFERENCES: [RGBColor; 4] = [VERMILION, GREEN, PURPLE, GREY];
 const WRAP_PX: f64 = 170.0;
 const HEIGHT_PX: i32 = 480;
 
-/// Draws `out_svg` from a history: the normal force from the grid's impulse, that from the stress in two layers of cells,
-/// the reference forces and the peak.
+/// Draws `out_svg` from a history: the normal force from the grid's impulse, that from the stress in two layers of
+/// material points, the reference forces and the peak.
 ///
 /// Reads `time_s`, `force_normal_n`, `force_layer2_n` and `force_normal_max_n`; gaps (empty cells) are left out.
 ///
@@ -63,13 +63,11 @@ pub fn draw(
     let (lo, hi) = values.iter().fold((0.0, 0.0), |(lo, hi): (f64, f64), v| (lo.min(*v), hi.max(*v)));
     let (scale, unit) = if hi.max(-lo) >= 20e3 { (1e-3, "kN") } else { (1.0, "N") };
     let scaled = |values: &[f64]| values.iter().map(|v| v * scale).collect::<Vec<_>>();
-    // The text at the peak stands above it.
-    let y = Axis::round(lo * scale, (hi + 0.08 * (hi - lo)) * scale, 6);
-    let x = Axis::exact(
-        times.iter().copied().fold(f64::INFINITY, f64::min),
-        times.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        7,
-    );
+    let y = Axis::round(lo * scale, hi * scale, 6);
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min);
+    let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    // The first sample ends one interval after the start.
+    let x = Axis::exact(if first > 0.0 && first < 0.02 * last { 0.0 } else { first }, last, 7);
 
     let names: Vec<Vec<String>> = lines
         .iter()
@@ -81,7 +79,7 @@ pub fn draw(
         .collect();
     let widest = names.iter().flatten().map(|text| text_width_px(text, SMALL_PX)).fold(0.0, f64::max);
     let right = if names.is_empty() { 24.0 } else { widest.min(260.0) + 22.0 };
-    let margins = Margins { left: 68.0, right, top: 44.0, bottom: 46.0 };
+    let margins = Margins { left: 68.0, right, top: 62.0, bottom: 46.0 };
 
     render(out_svg.as_ref(), HEIGHT_PX, |canvas| {
         let frame = Frame::draw(canvas, &margins, (&x, "time (s)"), (&y, &format!("normal force ({unit})")))?;
@@ -110,28 +108,34 @@ pub fn draw(
             }
         }
 
-        let keys =
-            [("force from the grid's impulse", BLUE, 2.2), ("force from stress, two layers of cells", ORANGE, 1.2)];
-        legend(canvas, (left, top - units(20.0)), &keys)?;
+        let keys = [
+            ("force from the grid's impulse", BLUE, 2.2),
+            ("force from stress, two layers of material points", ORANGE, 1.2),
+        ];
+        legend(canvas, (left, top - units(40.0)), &keys)?;
         let mut text = format!("peak {} {unit} at {:.3} s", short(force[peak] * scale), time[peak]);
         if let Some(largest) = largest_step {
             text.push_str(&format!(" (single step: {} {unit})", short(largest * scale)));
         }
         let spot = frame.spot(time[peak], force[peak] * scale);
-        mark_peak(canvas, spot, &text, &heights, (left, right, top))
+        mark_peak(canvas, spot, &text, (left, top - units(18.0)))
     })
 }
 
-/// Breaks a label between words into lines of about [`WRAP_PX`].
+/// Breaks a label at its line breaks, and between words into lines of about [`WRAP_PX`].
 fn wrap(label: &str) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in label.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if text_width_px(&format!("{line} {word}"), SMALL_PX) <= WRAP_PX => {
-                line.push(' ');
-                line.push_str(word);
+    for part in label.lines() {
+        lines.push(String::new());
+        for word in part.split_whitespace() {
+            match lines.last_mut() {
+                Some(line) if line.is_empty() => line.push_str(word),
+                Some(line) if text_width_px(&format!("{line} {word}"), SMALL_PX) <= WRAP_PX => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
             }
-            _ => lines.push(word.to_owned()),
         }
     }
     lines
@@ -157,27 +161,12 @@ fn legend(canvas: &Canvas<'_>, at: Spot, keys: &[(&str, RGBColor, f64)]) -> Resu
     Ok(())
 }
 
-/// Marks the peak, with its text above it and clear of the reference lines at `heights`.
-fn mark_peak(
-    canvas: &Canvas<'_>,
-    peak: Spot,
-    text: &str,
-    heights: &[i32],
-    (left, right, top): (i32, i32, i32),
-) -> Result<(), PlotError> {
-    let marker = ShapeStyle { color: INK.to_rgba(), filled: true, stroke_width: 0 };
-    canvas.draw(&Circle::new(peak, units(3.2), marker)).map_err(drawing)?;
-    let half = units(SMALL_PX * 0.7);
-    let clear = |y: i32| heights.iter().all(|height| (height - y).abs() > half);
-    let above = peak.1 - units(16.0);
-    let y = (top + half..=above).rev().step_by(UNIT as usize).find(|y| clear(*y)).unwrap_or(above);
-    let width = units(text_width_px(text, SMALL_PX));
-    let x = (peak.0 - width / 2).clamp(left + units(6.0), (right - width).max(left + units(6.0)));
-    if y < peak.1 - units(20.0) {
-        stroke(canvas, vec![(peak.0, peak.1 - units(4.0)), (peak.0, y + half)], line(GREY, 0.8))?;
-    }
-    let (pad, end) = (units(3.0), x + width);
-    let backdrop = [(x - pad, y - half), (end, y - half), (end, y + half), (x - pad, y + half)];
-    fill(canvas, backdrop.to_vec(), &WHITE.mix(0.85))?;
-    write_at(canvas, text, (x, y), SMALL_PX, INK, HPos::Left)
+/// Marks the peak with a dot and explains the dot in the legend's second row: beside a noisy peak there is no room for text.
+fn mark_peak(canvas: &Canvas<'_>, peak: Spot, text: &str, key: Spot) -> Result<(), PlotError> {
+    let ring = ShapeStyle { color: WHITE.to_rgba(), filled: true, stroke_width: 0 };
+    let dot = ShapeStyle { color: INK.to_rgba(), filled: true, stroke_width: 0 };
+    canvas.draw(&Circle::new(peak, units(4.4), ring)).map_err(drawing)?;
+    canvas.draw(&Circle::new(peak, units(3.2), dot)).map_err(drawing)?;
+    canvas.draw(&Circle::new((key.0 + units(12.0), key.1), units(3.2), dot)).map_err(drawing)?;
+    write_at(canvas, text, (key.0 + units(30.0), key.1), TEXT_PX, INK, HPos::Left)
 }

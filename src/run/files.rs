@@ -11,7 +11,7 @@ use super::summary::Summary;
 use crate::boundary::{Boundary, Solid};
 use crate::case::Case;
 use crate::gauge::flow::FieldCell;
-use crate::output::{self, Field, OutputError, Polyline, PvdWriter, TableWriter, Values};
+use crate::output::{self, Field, OutputError, Polyline, PvdWriter, Table, TableWriter, Values};
 use crate::plot::{self, PlotError, force_time::ReferenceLine};
 use crate::simulation::Simulation;
 use std::fs;
@@ -35,12 +35,18 @@ pub fn prepare_directory(directory: &Path) -> Result<(), String> {
             ));
         }
     }
+    let existed = directory.is_dir();
     fs::create_dir_all(directory)
         .map_err(|e| format!("cannot create {shown}: {e}; choose another folder with --out"))?;
     let probe = directory.join(".checkdam-probe");
-    fs::write(&probe, b"checkdam")
-        .and_then(|()| fs::remove_file(&probe))
-        .map_err(|e| format!("cannot write into {shown}: {e}; choose another folder with --out"))
+    let tried = fs::write(&probe, b"checkdam");
+    let removed = fs::remove_file(&probe);
+    tried.and(removed).map_err(|e| {
+        if !existed {
+            let _ = fs::remove_dir(directory);
+        }
+        format!("cannot write into {shown}: {e}; choose another folder with --out")
+    })
 }
 
 /// Runs a case into an empty folder; returns what was recorded.
@@ -55,47 +61,53 @@ pub fn run_into(
     let mut experiment = Experiment::new(case);
     let mut folder = Folder::create(directory, &experiment)?;
     let end = experiment.run(&mut folder, progress);
-    let closed = folder.close();
+    let closed = folder.close().map_err(RunError::from);
+    let end = end.and_then(|end| closed.map(|()| end));
     let summary = match &end {
         Ok(end) => Summary::new(case, &experiment, &folder.records, *end),
         Err(error) => Summary::failed(case, &experiment, &folder.records, &error.to_string()),
     };
-    output::write_text(directory.join("summary.toml"), &summary.to_toml())?;
+    let written = output::write_text(directory.join("summary.toml"), &summary.to_toml());
+    let drawn = draw_figures(case, directory, &summary);
+    // The first thing that went wrong is reported: what follows from it would only hide it.
     end?;
-    closed?;
-    draw_figures(case, directory, &summary)?;
+    written?;
+    drawn?;
     Ok((experiment, folder.records, summary))
 }
 
-/// Draws all figures of a finished run from its tables.
+/// Draws all figures of a run from its tables, leaving out those whose table has no row yet.
 ///
 /// # Errors
 /// The first figure that could not be drawn.
 pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<(), PlotError> {
     let at = |name: &str| directory.join(name);
-    if case.gauges.barrier.is_some() {
-        let mut lines = Vec::new();
-        if let Some(forces) = &summary.deposit {
-            lines.push(ReferenceLine {
-                label: "m g (sin - mu cos), base friction fully mobilised up the flume".into(),
-                value_n: forces.theoretical_static_force_n,
-            });
-        }
-        plot::force_time::draw(at("history.csv"), &lines, at("force_time.svg"))?;
-        plot::pressure_profile::draw(at("pressure_profile.csv"), at("pressure_profile.svg"))?;
-    }
-    if summary.energy.initial_j > 0.0 {
-        plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg"))?;
-    }
-    if !case.gauges.field_times_s.is_empty() {
-        plot::flow_snapshots::draw(
-            at("field.csv"),
-            at("geometry.csv"),
-            case.gravity.inclination_deg,
-            at("flow_snapshots.svg"),
-        )?;
-    }
-    Ok(())
+    let empty = |name: &str| Table::load(at(name)).is_ok_and(|table| table.rows() == 0);
+    let force = || {
+        let value = summary.deposit.as_ref().map(|d| d.theoretical_static_force_n).filter(|f| f.is_finite());
+        let label = "weight less full base friction\nm g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})";
+        let lines: Vec<_> = value.map(|value_n| ReferenceLine { label: label.into(), value_n }).into_iter().collect();
+        plot::force_time::draw(at("history.csv"), &lines, at("force_time.svg"))
+    };
+    let profile = || plot::pressure_profile::draw(at("pressure_profile.csv"), at("pressure_profile.svg"));
+    let energy = || plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg"));
+    let inclination = case.gravity.inclination_deg;
+    let flow =
+        || plot::flow_snapshots::draw(at("field.csv"), at("geometry.csv"), inclination, at("flow_snapshots.svg"));
+
+    let barrier = case.gauges.barrier.is_some();
+    let fields = !case.gauges.field_times_s.is_empty();
+    type Draw<'a> = &'a dyn Fn() -> Result<(), PlotError>;
+    let figures: [(bool, &str, Draw); 4] = [
+        (barrier, "history.csv", &force),
+        (barrier, "pressure_profile.csv", &profile),
+        (summary.energy.initial_j > 0.0, "energy.csv", &energy),
+        (fields, "field.csv", &flow),
+    ];
+    let wanted = figures.into_iter().filter(|(wanted, table, _)| *wanted && !empty(table));
+    // All of them, also when one fails.
+    let results: Vec<_> = wanted.map(|(_, _, draw)| draw()).collect();
+    results.into_iter().collect()
 }
 
 /// The open tables of a run.
@@ -162,13 +174,11 @@ impl Folder {
     }
 
     fn close(&mut self) -> Result<(), OutputError> {
-        self.history.flush()?;
-        self.energy.flush()?;
-        self.momentum.flush()?;
-        for table in [&mut self.stations, &mut self.profile, &mut self.field].into_iter().flatten() {
-            table.flush()?;
-        }
-        Ok(())
+        let always = [&mut self.history, &mut self.energy, &mut self.momentum];
+        let optional = [&mut self.stations, &mut self.profile, &mut self.field].into_iter().flatten();
+        // All of them, also when one fails.
+        let results: Vec<_> = always.into_iter().chain(optional).map(TableWriter::flush).collect();
+        results.into_iter().collect()
     }
 }
 
