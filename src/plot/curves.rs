@@ -61,7 +61,7 @@ struct Drawn {
 pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> Result<(), PlotError> {
     let table = Table::load(csv)?;
     let drawn = select(&table, what)?;
-    let all = || drawn.iter().flat_map(|d| &d.points);
+    let all = || drawn.iter().flat_map(|d| &d.points).filter(|p| p.0.is_finite());
     if all().next().is_none() {
         return Err(PlotError::data(table.path(), "no row has a value on both axes"));
     }
@@ -89,7 +89,7 @@ pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> 
             frame.series(canvas, &xs, &ys, style)?;
             if !d.exact && d.points.len() <= MARKED {
                 let marker = ShapeStyle { color: colour.to_rgba(), filled: true, stroke_width: 0 };
-                for &(px, py) in &d.points {
+                for &(px, py) in d.points.iter().filter(|p| p.0.is_finite()) {
                     canvas.draw(&Circle::new(frame.spot(px, py), units(3.0), marker)).map_err(drawing)?;
                 }
             }
@@ -122,6 +122,7 @@ fn select(table: &Table, what: &Curves) -> Result<Vec<Drawn>, PlotError> {
             let map = |v: f64| if what.logarithmic { v.abs().log10() } else { v };
             let points: Vec<_> =
                 rows.map(|k| (map(x[k]), map(y[k]))).filter(|(a, b)| a.is_finite() && b.is_finite()).collect();
+            let points = parted(points);
             let label = match split {
                 None => curve.label.to_string(),
                 Some((_, name)) => format!("{}, {name} {value}", curve.label),
@@ -132,4 +133,16 @@ fn select(table: &Table, what: &Curves) -> Result<Vec<Drawn>, PlotError> {
         }
     }
     Ok(drawn)
+}
+
+/// Puts a gap where the horizontal coordinate goes back: there another run begins.
+fn parted(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let mut out: Vec<(f64, f64)> = Vec::with_capacity(points.len());
+    for p in points {
+        if out.last().is_some_and(|last| p.0 < last.0) {
+            out.push((f64::NAN, f64::NAN));
+        }
+        out.push(p);
+    }
+    out
 }
