@@ -4,12 +4,15 @@ mod check;
 mod console;
 mod progress;
 mod run;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use console::{say, tell};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// Exit code when a check failed.
+const CHECK_FAILED: u8 = 1;
 /// Exit code when the input is at fault, and nothing was computed.
 const BAD_INPUT: u8 = 2;
 /// Exit code when a run failed or was stopped; what was computed is in its folder.
@@ -26,10 +29,12 @@ const ENDED_EARLY: u8 = 3;
 Start here:
   checkdam check validation/flume/40deg.toml     what would run, and how long it would take
   checkdam run   validation/flume/40deg.toml     run it into out/40deg
+  checkdam verify                                are the equations solved right? every rung against its closed form
 The comments in validation/flume/40deg.toml explain every field of a case file.
 
 Exit codes:
   0  done
+  1  a check of the verification ladder failed
   2  the input is at fault; nothing was written
   3  the run failed or was stopped; what was computed is in its folder"
 )]
@@ -64,6 +69,15 @@ enum Command {
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
     },
+    /// Run the verification ladder: print what was measured beside what should come out, write tables and figures.
+    Verify {
+        /// Rungs to run [default: all]
+        #[arg(value_name = "RUNG")]
+        rungs: Vec<String>,
+        /// Folder for tables and figures; files of the same name are replaced
+        #[arg(long, value_name = "DIR", default_value = "out/verification")]
+        out: PathBuf,
+    },
 }
 
 /// Parses the command line and does what it says.
@@ -71,6 +85,7 @@ pub fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Run { case, out, threads } => run::run(&case, out, threads),
         Command::Check { case, threads } => check::check(&case, threads),
+        Command::Verify { rungs, out } => verify::verify(&rungs, &out),
     }
 }
 
