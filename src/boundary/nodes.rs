@@ -100,6 +100,13 @@ impl Hold {
         [nx * n + ny * t, ny * n - nx * t]
     }
 
+    /// One Gauss-Seidel visit to the normal impulse alone.
+    fn relax_normal(&mut self, m: f64, v: &mut [f64; 2]) {
+        let friction = std::mem::replace(&mut self.friction, 0.0);
+        self.relax(m, v);
+        self.friction = friction;
+    }
+
     /// One Gauss-Seidel visit: brings the accumulated impulses up to date with velocity `v` of a node of mass `m`.
     #[inline]
     fn relax(&mut self, m: f64, v: &mut [f64; 2]) {
@@ -158,6 +165,13 @@ pub fn solve(
     let mut sweeps = if holds.len() > 1 { SWEEPS } else { 1 };
     for hold in holds.iter_mut() {
         hold.impulse = [0.0; 2];
+    }
+    if holds.len() > 1 {
+        // In a corner, what one boundary takes as normal force another could take as friction. Friction resists sliding only:
+        // the normal impulses come first, and friction finds what sliding they leave.
+        for _ in 0..SWEEPS {
+            holds.iter_mut().filter(|h| h.is_active(boundaries)).for_each(|h| h.relax_normal(m, v));
+        }
     }
     while sweeps > 0 {
         for hold in holds.iter_mut() {

@@ -40,7 +40,9 @@ pub fn verify(names: &[String], out: &Path) -> ExitCode {
             failed.push(rung.name);
         }
         match report::write(rung.name, &outcome, out) {
-            Ok(files) => tell!("      {:.1} s; {} files in {}", start.elapsed().as_secs_f64(), files.len(), out.display()),
+            Ok(files) => {
+                tell!("      {:.1} s; {} files in {}", start.elapsed().as_secs_f64(), files.len(), out.display())
+            }
             Err(error) => {
                 tell!("error: {error}");
                 return ExitCode::from(BAD_INPUT);
