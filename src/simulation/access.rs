@@ -1,0 +1,174 @@
+//! Reading a simulation, and steering it between steps.
+
+use super::{AccelerationField, Simulation, potential};
+use crate::body::{Body, Particle, Points};
+use crate::boundary::Boundary;
+use crate::boundary::nodes::{Hold, Tally};
+use crate::constitutive::Law;
+use crate::ledger::{EnergyBalance, Ledger, Stock};
+use crate::timestep::TimeStep;
+
+impl Simulation {
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Sets the clock, s.
+    pub fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The last time step; before the first step, the next.
+    pub fn time_step(&self) -> TimeStep {
+        if self.steps == 0 { self.next_time_step() } else { self.time_step }
+    }
+
+    /// Bodies.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Boundaries.
+    pub fn boundaries(&self) -> &[Boundary] {
+        &self.boundaries
+    }
+
+    /// Index of a boundary by name.
+    pub fn boundary_index(&self, name: &str) -> Option<usize> {
+        self.boundaries.iter().position(|b| b.name == name)
+    }
+
+    /// Cell size, m.
+    pub fn spacing(&self) -> f64 {
+        self.lattice.spacing
+    }
+
+    /// Material outside [x_min, x_max], [y_min, y_max] is removed, m.
+    pub fn domain(&self) -> [[f64; 2]; 2] {
+        self.domain
+    }
+
+    /// Extent across the plane, m.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Mass now in the domain, kg.
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Gravity, m/s2.
+    pub fn gravity(&self) -> [f64; 2] {
+        self.forces.gravity
+    }
+
+    /// Changes gravity. Energies are then measured in the new field: open the ledger again.
+    pub fn set_gravity(&mut self, gravity: [f64; 2]) {
+        self.forces.gravity = gravity;
+    }
+
+    /// Mass-proportional damping, 1/s.
+    pub fn set_damping(&mut self, rate: f64) {
+        self.forces.damping = rate;
+    }
+
+    /// Adds a field of accelerations to gravity, as manufactured solutions need, or removes it.
+    pub fn set_field(&mut self, field: Option<AccelerationField>) {
+        self.field = field;
+        self.bands.iter_mut().for_each(|band| band.field_force.clear());
+    }
+
+    /// Moves a boundary at a velocity, m/s. Nodes it reaches are found at the next sort, so keep it slow against h per sort.
+    pub fn set_boundary_velocity(&mut self, index: usize, velocity: [f64; 2]) {
+        self.boundaries[index].velocity = velocity.into();
+        self.nodes.rebuild(&self.grid, &self.boundaries);
+    }
+
+    /// Releases all gates.
+    pub fn release_gates(&mut self) {
+        self.boundaries.iter_mut().for_each(Boundary::release);
+        self.nodes.rebuild(&self.grid, &self.boundaries);
+    }
+
+    /// All points as (body index, point), in a fixed order that changes with sorting.
+    pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
+        self.bands.iter().flat_map(|band| {
+            band.points.iter().enumerate().flat_map(|(body, points)| points.iter().map(move |p| (body, p)))
+        })
+    }
+
+    /// Number of material points.
+    pub fn particle_count(&self) -> usize {
+        self.bands.iter().flat_map(|b| &b.points).map(Points::len).sum()
+    }
+
+    /// Number of active nodes.
+    pub fn node_count(&self) -> usize {
+        self.grid.len()
+    }
+
+    /// Bytes held by points, accumulators and nodes.
+    pub fn bytes(&self) -> usize {
+        let bands = self.bands.iter().map(|b| {
+            b.points.iter().map(Points::bytes).sum::<usize>()
+                + b.inertia.capacity() * size_of::<[f64; 4]>()
+                + b.force.capacity() * size_of::<[f64; 2]>()
+        });
+        bands.sum::<usize>() + self.grid.bytes()
+    }
+
+    /// What each boundary did in the last step.
+    pub fn step_tallies(&self) -> &[Tally] {
+        &self.step_tallies
+    }
+
+    /// Contacts of the last step, in the order of the nodes.
+    pub fn holds(&self) -> impl Iterator<Item = &Hold> {
+        self.nodes.holds()
+    }
+
+    /// Starts a new ledger now.
+    pub fn open_ledger(&mut self) {
+        self.ledger = Ledger::new(self.boundaries.len());
+        self.opening = self.stock();
+    }
+
+    /// The ledger since it was opened.
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// What the material held when the ledger was opened.
+    pub fn opening(&self) -> &Stock {
+        &self.opening
+    }
+
+    /// What the material holds now.
+    pub fn stock(&self) -> Stock {
+        let mut s = Stock::default();
+        for (body, p) in self.particles() {
+            let body = &self.bodies[body];
+            let m = body.point_mass;
+            s.mass += m;
+            s.momentum[0] += m * p.v[0];
+            s.momentum[1] += m * p.v[1];
+            s.kinetic += 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
+            s.gravitational += m * potential(&self.forces.gravity, &p.x);
+            s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state.stress);
+        }
+        s
+    }
+
+    /// Energy by mechanism since the ledger was opened, with gravitational energy counted from the level of `datum` (m).
+    pub fn energy_balance(&self, now: &Stock, datum: [f64; 2]) -> EnergyBalance {
+        let level = potential(&self.forces.gravity, &datum);
+        EnergyBalance::new(&self.ledger, &self.opening, now, [self.opening.mass * level, now.mass * level])
+    }
+}
