@@ -138,6 +138,8 @@ fn ours(quantity: &str, summary: &Summary) -> f64 {
     match quantity {
         "front velocity before impact" => at_window.velocity_m_per_s,
         "Froude number before impact" => at_window.froude,
+        "flow depth before impact" => at_window.depth_m,
+        "largest over static force" => barrier.peak_force_20ms_n / barrier.static_force_n,
         "static force" => barrier.static_force_n,
         // The experiment's largest force stands beside the largest mean over 20 ms.
         "largest measured force" => barrier.peak_force_20ms_n,
