@@ -11,6 +11,7 @@ pub mod earth_pressure;
 pub mod energy;
 pub mod exactness;
 pub mod fault;
+pub mod manufactured;
 pub mod report;
 pub mod scene;
 pub mod self_weight;
@@ -89,4 +90,5 @@ pub const RUNGS: &[Rung] = &[
     celerity::RUNG,
     energy::RUNG,
     earth_pressure::RUNG,
+    manufactured::RUNG,
 ];

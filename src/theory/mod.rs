@@ -8,6 +8,7 @@ pub mod drucker_prager;
 pub mod earth_pressure;
 pub mod elastic;
 pub mod jaumann;
+pub mod manufactured;
 pub mod order;
 pub mod pic;
 pub mod self_weight;
