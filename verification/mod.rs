@@ -5,6 +5,7 @@
 //! in [`RUNGS`]. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
 //! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
 
+pub mod cantilever;
 pub mod celerity;
 pub mod drucker_prager_point;
 pub mod earth_pressure;
@@ -91,4 +92,5 @@ pub const RUNGS: &[Rung] = &[
     energy::RUNG,
     earth_pressure::RUNG,
     manufactured::RUNG,
+    cantilever::RUNG,
 ];
