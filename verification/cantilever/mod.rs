@@ -13,7 +13,7 @@
 //! are too soft by an amount of first order.
 //!
 //! At large deflection points cross cells, and FLIP alone lets them collect motion that no node sees and no damping stops, which
-//! spoils the deflection by 5 to 30 %; one or two percent of PIC a step remove it, and cost nothing at rest. The rate law of the
+//! spoils the deflection by 3 to 30 %; one or two percent of PIC a step remove it, and cost nothing at rest. The rate law of the
 //! material differs from any other one by the strain, at most 5 % at the foot, squared.
 
 mod beam;

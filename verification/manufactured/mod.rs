@@ -106,7 +106,7 @@ fn orders(errors: &[Errors], of: fn(&Errors) -> f64) -> Vec<f64> {
     errors.windows(2).map(|w| order::from_errors(of(&w[0]), of(&w[1]), 2.0)).collect()
 }
 
-/// Least and largest order, each a check against `expected`.
+/// Orders between the last grids, each a check.
 fn judge(outcome: &mut Outcome, what: &str, orders: &[f64], low: f64, high: f64, reason: &str) {
     for (i, &p) in orders.iter().enumerate() {
         let fine = GRIDS[GRIDS.len() - orders.len() + i];
