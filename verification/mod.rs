@@ -5,6 +5,7 @@
 //! in [`RUNGS`]. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
 //! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
 
+pub mod cantilever;
 pub mod celerity;
 pub mod drucker_prager_point;
 pub mod earth_pressure;
@@ -12,6 +13,7 @@ pub mod energy;
 pub mod exactness;
 pub mod fault;
 pub mod figures;
+pub mod manufactured;
 pub mod report;
 pub mod scene;
 pub mod self_weight;
@@ -90,4 +92,6 @@ pub const RUNGS: &[Rung] = &[
     celerity::RUNG,
     energy::RUNG,
     earth_pressure::RUNG,
+    manufactured::RUNG,
+    cantilever::RUNG,
 ];

@@ -3,11 +3,13 @@
 //! One file per subject. Units are SI, angles radians, stresses positive in tension unless a function says otherwise.
 
 pub mod bar;
+pub mod cantilever;
 pub mod dispersion;
 pub mod drucker_prager;
 pub mod earth_pressure;
 pub mod elastic;
 pub mod jaumann;
+pub mod manufactured;
 pub mod order;
 pub mod pic;
 pub mod self_weight;
