@@ -6,6 +6,8 @@
 //! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
 
 pub mod celerity;
+pub mod collapse;
+pub mod convergence;
 pub mod drucker_prager_point;
 pub mod earth_pressure;
 pub mod energy;
@@ -15,6 +17,7 @@ pub mod report;
 pub mod scene;
 pub mod self_weight;
 pub mod sliding_block;
+pub mod wall_pressure;
 
 pub use fault::{Fault, FaultKind};
 
@@ -89,4 +92,7 @@ pub const RUNGS: &[Rung] = &[
     celerity::RUNG,
     energy::RUNG,
     earth_pressure::RUNG,
+    wall_pressure::RUNG,
+    collapse::RUNG,
+    convergence::RUNG,
 ];

@@ -60,7 +60,18 @@ macro_rules! ladder {
     };
 }
 
-ladder!(exactness, self_weight, sliding_block, drucker_prager_point, celerity, energy, earth_pressure);
+ladder!(
+    exactness,
+    self_weight,
+    sliding_block,
+    drucker_prager_point,
+    celerity,
+    energy,
+    earth_pressure,
+    wall_pressure,
+    collapse,
+    convergence
+);
 
 /// Each rung fails under each fault that it claims to catch, in either direction, and each fault is caught by some rung.
 #[test]

@@ -3,6 +3,7 @@
 //! One file per subject. Units are SI, angles radians, stresses positive in tension unless a function says otherwise.
 
 pub mod bar;
+pub mod collapse;
 pub mod dispersion;
 pub mod drucker_prager;
 pub mod earth_pressure;
