@@ -7,6 +7,8 @@
 
 pub mod cantilever;
 pub mod celerity;
+pub mod collapse;
+pub mod convergence;
 pub mod drucker_prager_point;
 pub mod earth_pressure;
 pub mod energy;
@@ -18,6 +20,7 @@ pub mod report;
 pub mod scene;
 pub mod self_weight;
 pub mod sliding_block;
+pub mod wall_pressure;
 
 pub use fault::{Fault, FaultKind};
 
@@ -94,4 +97,7 @@ pub const RUNGS: &[Rung] = &[
     earth_pressure::RUNG,
     manufactured::RUNG,
     cantilever::RUNG,
+    wall_pressure::RUNG,
+    collapse::RUNG,
+    convergence::RUNG,
 ];

@@ -57,7 +57,10 @@ ladder!(
     energy,
     earth_pressure,
     manufactured,
-    cantilever
+    cantilever,
+    wall_pressure,
+    collapse,
+    convergence
 );
 
 /// Each rung fails under each fault that it claims to catch, in either direction, and each fault is caught by some rung.

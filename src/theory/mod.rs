@@ -4,6 +4,7 @@
 
 pub mod bar;
 pub mod cantilever;
+pub mod collapse;
 pub mod dispersion;
 pub mod drucker_prager;
 pub mod earth_pressure;

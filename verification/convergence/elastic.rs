@@ -1,0 +1,68 @@
+//! A bar that strikes a wall and a column that settles, on four grids with four numbers of points per cell.
+
+use crate::boundary::{Boundary, Friction};
+use crate::simulation::{PicShare, Simulation};
+use crate::theory::elastic::{bar_speed, confined_speed};
+use crate::verification::scene::{Brick, Material, THICKNESS, run_until, scene};
+use crate::verification::{Fault, RungFailure};
+use nalgebra::Vector2;
+
+/// The bar: Poisson's ratio zero, 1 m long.
+pub const BAR: Material = Material::new(1e6, 0.0, 1500.0);
+/// Length of the bar, m.
+pub const LENGTH: f64 = 1.0;
+/// Its velocity over its wave speed: strains of 1e-3.
+pub const MACH: f64 = 1e-3;
+/// The column.
+pub const COLUMN: Material = Material::new(5e5, 0.3, 1500.0);
+/// Its height, m.
+pub const HEIGHT: f64 = 0.8;
+/// Gravity, m/s2.
+pub const GRAVITY: f64 = 9.81;
+
+/// The bar strikes a rigid wall: mean force (Pa) between 20 and 80 % of the contact, and impulse over 2 m v.
+pub fn impact(cells: usize, per_cell: usize, fault: &Fault) -> Result<[f64; 2], RungFailure> {
+    let h = LENGTH / cells as f64;
+    let speed = bar_speed(&BAR.elastic, BAR.density);
+    let v = MACH * speed;
+    let brick = Brick { per_cell, ..Brick::new([0.0, 0.0], [cells, 2], h) };
+    let mut points = brick.points();
+    points.iter_mut().for_each(|p| p.v[0] = -v);
+    let wall = Boundary::plane("wall", Vector2::zeros(), Vector2::new(1.0, 0.0), Friction::Smooth);
+    let mut sim = Simulation::new(scene(&brick, BAR.law(fault), BAR.density * fault.density, points, vec![wall]));
+    let duration = 2.0 * LENGTH / speed;
+    let (mut impulse, mut plateau, mut time) = (0.0, 0.0, 0.0);
+    while sim.time() < 1.5 * duration {
+        sim.step()?;
+        let push = sim.step_tallies()[0].impulse[0] * fault.contact_force;
+        impulse += push;
+        if (0.2..0.8).contains(&(sim.time() / duration)) {
+            plateau += push;
+            time += sim.time_step().dt;
+        }
+    }
+    let area = 2.0 * h * THICKNESS;
+    Ok([plateau / time / area, impulse / (2.0 * BAR.density * LENGTH * area * v)])
+}
+
+/// The column settles between smooth walls: force on a side wall per width (N/m) and settlement of the centre of mass (m).
+pub fn settle(cells: usize, per_cell: usize, fault: &Fault) -> Result<[f64; 2], RungFailure> {
+    let h = HEIGHT / cells as f64;
+    let brick = Brick { per_cell, ..Brick::new([0.0, 0.0], [2, cells], h) };
+    let at = Vector2::new;
+    let boundaries = vec![
+        Boundary::plane("base", at(0.0, 0.0), at(0.0, 1.0), Friction::Smooth),
+        Boundary::plane("left", at(0.0, 0.0), at(1.0, 0.0), Friction::Smooth),
+        Boundary::plane("right", at(2.0 * h, 0.0), at(-1.0, 0.0), Friction::Smooth),
+    ];
+    let mut scene = scene(&brick, COLUMN.law(fault), COLUMN.density * fault.density, brick.points(), boundaries);
+    scene.gravity = [0.0, -GRAVITY * fault.gravity];
+    scene.numerics.pic = PicShare::Fraction(0.02);
+    let mut sim = Simulation::new(scene);
+    let speed = confined_speed(&COLUMN.elastic, COLUMN.density);
+    sim.set_damping(std::f64::consts::PI * speed / HEIGHT);
+    run_until(&mut sim, 15.0 * HEIGHT / speed)?;
+    let force = sim.step_tallies()[1].impulse[0] / (sim.time_step().dt * THICKNESS) * fault.contact_force;
+    let centre = sim.particles().map(|(_, p)| p.x[1]).sum::<f64>() / sim.particle_count() as f64;
+    Ok([force, 0.5 * HEIGHT - centre])
+}
