@@ -123,6 +123,63 @@ pub const FIGURES: &[Figure] = &[
             logarithmic: false,
         },
     },
+    Figure {
+        rung: "manufactured",
+        table: "manufactured_space",
+        name: "manufactured_space_plot",
+        curves: Curves {
+            x: "cells",
+            x_title: "cells per side",
+            y_title: "error of the displacement over the amplitude",
+            curves: &[measured("displacement_error", "all cases")],
+            split: Some(("shape_linear_ugimp_bspline", "shape ")),
+            logarithmic: true,
+        },
+    },
+    Figure {
+        rung: "cantilever",
+        table: "cantilever_deflection",
+        name: "cantilever_deflection_plot",
+        curves: Curves {
+            x: "cells_through_depth",
+            x_title: "cells through the depth",
+            y_title: "relative error of the deflection",
+            curves: &[measured("deflection_error", "all cases")],
+            split: Some(("shape_ugimp_bspline", "shape ")),
+            logarithmic: true,
+        },
+    },
+    Figure {
+        rung: "wall_pressure",
+        table: "wall_pressure_stroke",
+        name: "wall_pressure_stroke_plot",
+        curves: Curves {
+            x: "stroke_over_height",
+            x_title: "stroke over height",
+            y_title: "earth pressure coefficient",
+            curves: &[measured("coefficient", "all cases")],
+            split: None,
+            logarithmic: false,
+        },
+    },
+    Figure {
+        rung: "collapse",
+        table: "collapse_laws",
+        name: "collapse_laws_plot",
+        curves: Curves {
+            x: "aspect_ratio",
+            x_title: "height over half width of the column",
+            y_title: "run-out over half width",
+            curves: &[
+                measured("run_out_by_mass", "by mass"),
+                measured("run_out_by_depth", "by depth"),
+                exact("run_out_lube_2005", "Lube 2005"),
+                exact("run_out_lajeunesse_2005", "Lajeunesse 2005"),
+            ],
+            split: None,
+            logarithmic: false,
+        },
+    },
 ];
 
 /// Draws the figures of a rung into the folder that holds its tables; returns their names with extension.
