@@ -196,8 +196,9 @@ impl Summary {
             End::Stopped => "stopped by the user; everything computed until then is here",
         };
         let mut summary = Self::build(case, experiment, records, status.into());
-        if end == End::Time && case.stages.run.stop_at_rest {
-            summary.warnings.push("the material was not at rest at the end: static values are not static".into());
+        if end != End::Rest {
+            let text = "the material was not seen to come to rest: static values are means over the last 0.3 s, no more";
+            summary.warnings.push(text.into());
         }
         summary
     }
