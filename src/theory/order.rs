@@ -115,7 +115,8 @@ mod tests {
         assert!((s.order - 1.78617).abs() < 1e-5);
         assert!((s.extrapolated - 0.97130).abs() < 1e-5);
         assert!((s.index[1] - 1.031e-3).abs() < 1e-6 && (s.index[0] - 3.562e-3).abs() < 1e-6);
-        assert!((s.asymptotic(2.0) - 0.99798).abs() < 1e-5);
+        // For equal ratios and the order of the same three values, fine over medium.
+        assert!((s.asymptotic(2.0) - 0.97050 / 0.96854).abs() < 1e-9);
     }
 
     #[test]
