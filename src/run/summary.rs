@@ -197,7 +197,8 @@ impl Summary {
         };
         let mut summary = Self::build(case, experiment, records, status.into());
         if end != End::Rest {
-            let text = "the material was not seen to come to rest: static values are means over the last 0.3 s, no more";
+            let text =
+                "the material was not seen to come to rest: static values are means over the last 0.3 s, no more";
             summary.warnings.push(text.into());
         }
         summary
