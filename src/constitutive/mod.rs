@@ -6,9 +6,11 @@
 
 mod drucker_prager;
 mod elastic;
+mod neo_hookean;
 
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::LinearElastic;
+pub use neo_hookean::{Finger, NeoHookean};
 
 /// Cauchy stress under plane strain, in Pa, tension positive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

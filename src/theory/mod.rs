@@ -11,6 +11,7 @@ pub mod earth_pressure;
 pub mod elastic;
 pub mod jaumann;
 pub mod manufactured;
+pub mod neo_hookean;
 pub mod order;
 pub mod pic;
 pub mod self_weight;
