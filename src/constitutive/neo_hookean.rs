@@ -49,7 +49,7 @@ impl Finger {
 /// Neo-Hookean law with the stored energy mu/2 (tr b - 3) - mu ln J + lambda/2 (ln J)^2 per reference volume (Simo and Pister
 /// 1984): J sigma = mu (b - I) + lambda ln J I.
 ///
-/// At small strain it is Hooke's law. The P-wave gets faster where the material is strained, by at most a tenth while principal
+/// At small strain it is Hooke's law. The P-wave gets faster where the material is strained, by at most an eighth while principal
 /// stretches stay between 0.7 and 1.3 (nu = 0.3), which the time step has to leave room for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NeoHookean {
