@@ -92,7 +92,7 @@ pub fn nearest(ring: &[Vector], radius: f64, x: Vector) -> Option<Nearest> {
     let mut crossings = 0i32;
     let mut from = *ring.last()?;
     for &to in ring {
-        let (foot, along) = foot_on(from, to, x);
+        let (foot, along, _) = foot_on(from, to, x);
         let r = minus(x, foot);
         let square = dot(r, r);
         if square < best.0 {
@@ -115,12 +115,104 @@ pub fn nearest(ring: &[Vector], radius: f64, x: Vector) -> Option<Nearest> {
     Some(Nearest { distance: distance - radius, normal, foot })
 }
 
-/// The place of a segment nearest to `x`, and the segment's direction (not of unit length).
-fn foot_on(from: Vector, to: Vector, x: Vector) -> (Vector, Vector) {
+/// Segments per box of [`Surface`].
+const RUN: usize = 8;
+
+/// A ring of positions prepared for many questions near it: runs of segments in boxes, so that most are never looked at.
+///
+/// Inside or outside is decided by the side of the nearest segment (at a corner, of both of its segments), which holds for
+/// bodies at least two points thick.
+#[derive(Debug, Clone, Default)]
+pub struct Surface {
+    /// Half extent of the points, m.
+    pub radius: f64,
+    ring: Vec<Vector>,
+    boxes: Vec<[Vector; 2]>,
+}
+
+impl Surface {
+    /// A surface `radius` (m) outside of a ring that is still unknown.
+    pub fn new(radius: f64) -> Self {
+        Self { radius, ..Self::default() }
+    }
+
+    /// Takes new positions of the ring, m.
+    pub fn follow(&mut self, places: impl Iterator<Item = Vector>) {
+        self.ring.clear();
+        self.ring.extend(places);
+        self.boxes.clear();
+        let n = self.ring.len();
+        for start in (0..n).step_by(RUN) {
+            let ends = (start..=(start + RUN).min(n)).map(|k| self.ring[k % n]);
+            let around = ends.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], x| {
+                [[low[0].min(x[0]), low[1].min(x[1])], [high[0].max(x[0]), high[1].max(x[1])]]
+            });
+            self.boxes.push(around);
+        }
+    }
+
+    /// Where `x` lies. None for a ring without points.
+    pub fn nearest(&self, x: Vector) -> Option<Nearest> {
+        let n = self.ring.len();
+        let mut best = (f64::INFINITY, [0.0; 2], 0, 0.0);
+        let look = |run: usize, best: &mut (f64, Vector, usize, f64)| {
+            for k in run * RUN..((run + 1) * RUN).min(n) {
+                let (foot, along, share) = foot_on(self.ring[k], self.ring[(k + 1) % n], x);
+                let r = minus(x, foot);
+                let square = dot(r, r);
+                if square < best.0 && dot(along, along) > 0.0 {
+                    *best = (square, foot, k, share);
+                }
+            }
+        };
+        let to_box = |b: &[Vector; 2]| {
+            let outside = |d: usize| (b[0][d] - x[d]).max(x[d] - b[1][d]).max(0.0);
+            let r = [outside(0), outside(1)];
+            dot(r, r)
+        };
+        // The nearest box first; it rules out most of the others.
+        let first = (0..self.boxes.len()).min_by(|&a, &b| to_box(&self.boxes[a]).total_cmp(&to_box(&self.boxes[b])))?;
+        look(first, &mut best);
+        for (run, around) in self.boxes.iter().enumerate() {
+            if run != first && to_box(around) < best.0 {
+                look(run, &mut best);
+            }
+        }
+        let (square, foot, k, share) = best;
+        if !square.is_finite() {
+            return None;
+        }
+        let face = |k: usize| {
+            let along = minus(self.ring[(k + 1) % n], self.ring[k % n]);
+            direction([along[1], -along[0]], 0.0).unwrap_or_default()
+        };
+        let own = face(k);
+        let out = match () {
+            () if share <= 0.0 => sum(own, face(k + n - 1)),
+            () if share >= 1.0 => sum(own, face(k + 1)),
+            () => own,
+        };
+        let r = minus(x, foot);
+        let side = if dot(r, out) < 0.0 { -1.0 } else { 1.0 };
+        // Close to the ring the direction to it is noise.
+        let normal = match direction(r, 1e-6 * self.radius) {
+            Some(n) => [side * n[0], side * n[1]],
+            None => direction(out, 0.0).unwrap_or(own),
+        };
+        Some(Nearest { distance: side * square.sqrt() - self.radius, normal, foot })
+    }
+}
+
+fn sum(a: Vector, b: Vector) -> Vector {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+/// The place of a segment nearest to `x`, the segment's direction (not of unit length), and how far along it the place is.
+fn foot_on(from: Vector, to: Vector, x: Vector) -> (Vector, Vector, f64) {
     let along = minus(to, from);
     let length2 = dot(along, along);
     let share = if length2 > 0.0 { (dot(minus(x, from), along) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    ([from[0] + share * along[0], from[1] + share * along[1]], along)
+    ([from[0] + share * along[0], from[1] + share * along[1]], along, share)
 }
 
 /// What a segment adds to the winding number of a closed ring about `x`.

@@ -1,5 +1,6 @@
 //! Reading a simulation, and steering it between steps.
 
+use super::field::VelocityField;
 use super::{AccelerationField, Simulation, potential};
 use crate::band::Band;
 use crate::body::{Body, Particle};
@@ -83,7 +84,7 @@ impl Simulation {
     /// Adds a field of accelerations to gravity, as manufactured solutions need, or removes it.
     pub fn set_field(&mut self, field: Option<AccelerationField>) {
         self.field = field;
-        self.bands.iter_mut().for_each(|band| band.nodes.field_force.clear());
+        self.fields.iter_mut().flat_map(|f| &mut f.bands).for_each(|band| band.nodes.field_force.clear());
     }
 
     /// Moves a boundary at a velocity, m/s. Nodes it reaches are found at the next sort, so keep it slow against h per sort.
@@ -100,24 +101,22 @@ impl Simulation {
 
     /// All points as (body index, point), in a fixed order that changes with sorting.
     pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
-        self.bands.iter().flat_map(|band| {
-            band.points.iter().enumerate().flat_map(|(body, points)| points.iter().map(move |p| (body, p)))
-        })
+        self.fields.iter().flat_map(VelocityField::particles)
     }
 
     /// Number of material points.
     pub fn particle_count(&self) -> usize {
-        self.bands.iter().map(Band::len).sum()
+        self.bands().map(Band::len).sum()
     }
 
     /// Number of active nodes.
     pub fn node_count(&self) -> usize {
-        self.grid.len()
+        self.fields.iter().map(|f| f.grid.len()).sum()
     }
 
     /// Bytes held by points, accumulators and nodes.
     pub fn bytes(&self) -> usize {
-        self.bands.iter().map(Band::bytes).sum::<usize>() + self.grid.bytes()
+        self.bands().map(Band::bytes).sum::<usize>() + self.fields.iter().map(|f| f.grid.bytes()).sum::<usize>()
     }
 
     /// What each boundary did in the last step.
@@ -127,7 +126,11 @@ impl Simulation {
 
     /// Contacts of the last step, in the order of the nodes.
     pub fn holds(&self) -> impl Iterator<Item = &Hold> {
-        self.bands.iter().flat_map(|b| &b.nodes.holds)
+        self.bands().flat_map(|b| &b.nodes.holds)
+    }
+
+    fn bands(&self) -> impl Iterator<Item = &Band> {
+        self.fields.iter().flat_map(|f| &f.bands)
     }
 
     /// Starts a new ledger now.

@@ -1,6 +1,6 @@
 //! Outlines of lattices, and distances from them.
 
-use crate::contact::outline::{Nearest, Outline, nearest, penetration};
+use crate::contact::outline::{Nearest, Outline, Surface, nearest, penetration};
 use crate::contact::{Vector, dot, minus};
 
 const S: f64 = 0.05;
@@ -85,6 +85,7 @@ fn distances_from_a_rectangle() {
         assert!((deep - (0.02 - distance).max(0.0)).abs() < 1e-12);
     }
     assert_eq!(nearest(&[], S, [0.0; 2]), None);
+    assert_eq!(Surface::default().nearest([0.0; 2]), None);
 }
 
 #[test]
@@ -115,4 +116,23 @@ fn a_bent_bar_keeps_its_surface() {
     println!("largest errors: distance {:.4} spacings, normal {:.2} degrees", worst[0], worst[1]);
     // Chords of length S on the outer ring sag by S^2/8R; a normal is off by half the turn between two chords.
     assert!(worst[0] < 0.15 * S / radius * 1.5 && worst[1] < 0.6 * (S / radius).to_degrees());
+}
+
+#[test]
+fn boxes_find_what_a_full_search_finds() {
+    let shape = |i: i32, j: i32| i < 6 || j < 4 || (i > 18 && j > 9);
+    let points = lattice([24, 14], 0.3, shape);
+    for ring in Outline::trace(&points, S, 0.3).rings {
+        let ring = places(&ring, &points);
+        let mut surface = Surface::new(0.5 * S);
+        surface.follow(ring.iter().copied());
+        for k in 0..3000 {
+            let x = [-0.9 + 0.04 * f64::from(k % 60), -0.2 + 0.043 * f64::from(k / 60)];
+            let (a, b) = (nearest(&ring, 0.5 * S, x).expect("a ring"), surface.nearest(x).expect("a ring"));
+            assert!((a.distance - b.distance).abs() < 1e-12, "{x:?} {a:?} {b:?}");
+            // Where two places are equally near, either normal is right.
+            let apart = minus(a.foot, b.foot);
+            assert!(dot(apart, apart) > 1e-12 || dot(a.normal, b.normal) > 1.0 - 1e-9, "{x:?} {a:?} {b:?}");
+        }
+    }
 }
