@@ -147,6 +147,13 @@ impl Points {
         self.blocks[i / LANES].set(i % LANES, p);
     }
 
+    /// Position of point `i`, m.
+    #[inline]
+    pub fn position(&self, i: usize) -> [f64; 2] {
+        let block = &self.blocks[i / LANES];
+        [block.x[0][i % LANES], block.x[1][i % LANES]]
+    }
+
     /// Appends a point.
     pub fn push(&mut self, p: &Particle) {
         self.resize(self.len + 1);

@@ -8,6 +8,8 @@
 //! - [`pair`] is the law for two bodies: impulse, stick and slip, work; [`node`] solves it for any number of bodies at a node.
 //! - [`normal`], [`regression`] and [`outline`] say how the surface lies, [`separation`] how far apart the bodies are.
 //!
+//! - [`rule`] is what a user chooses.
+//!
 //! Everything here is a function of what a node or a few points know; nothing imports the grid.
 
 pub mod node;
@@ -15,6 +17,7 @@ pub mod normal;
 pub mod outline;
 pub mod pair;
 pub mod regression;
+pub mod rule;
 pub mod separation;
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ pub fn build(case: &Case) -> Scene {
         bodies: case.bodies.iter().map(|b| body(case, b)).collect(),
         boundaries: case.boundaries.iter().filter_map(|b| boundary(case, b)).collect(),
         gravity: gravity(case, angle),
+        contacts: vec![],
         side_wall_friction: case.side_walls.friction,
         numerics: numerics(case),
     }

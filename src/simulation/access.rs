@@ -1,12 +1,13 @@
 //! Reading a simulation, and steering it between steps.
 
 use super::field::VelocityField;
-use super::{AccelerationField, Simulation, potential};
+use super::{AccelerationField, ContactPoint, Simulation, potential};
 use crate::band::Band;
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
 use crate::constitutive::Law;
+use crate::contact::rule::ContactTally;
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::timestep::TimeStep;
 
@@ -124,7 +125,17 @@ impl Simulation {
         &self.step_tallies
     }
 
-    /// Contacts of the last step, in the order of the nodes.
+    /// What the two bodies of each contact did to each other in the last step.
+    pub fn contact_tallies(&self) -> impl Iterator<Item = &ContactTally> {
+        self.coupling.tallies()
+    }
+
+    /// Where bodies touched each other in the last step.
+    pub fn contact_points(&self) -> &[ContactPoint] {
+        self.coupling.points()
+    }
+
+    /// What boundaries did to single nodes in the last step, in the order of the nodes.
     pub fn holds(&self) -> impl Iterator<Item = &Hold> {
         self.bands().flat_map(|b| &b.nodes.holds)
     }
@@ -135,7 +146,7 @@ impl Simulation {
 
     /// Starts a new ledger now.
     pub fn open_ledger(&mut self) {
-        self.ledger = Ledger::new(self.boundaries.len());
+        self.ledger = Ledger::new(self.boundaries.len(), self.ledger.contacts.len());
         self.opening = self.stock();
     }
 
@@ -151,8 +162,13 @@ impl Simulation {
 
     /// What the material holds now.
     pub fn stock(&self) -> Stock {
+        self.stock_of(|_| true)
+    }
+
+    /// What some bodies, chosen by index, hold now.
+    pub fn stock_of(&self, chosen: impl Fn(usize) -> bool) -> Stock {
         let mut s = Stock::default();
-        for (body, p) in self.particles() {
+        for (body, p) in self.particles().filter(|(body, _)| chosen(*body)) {
             let body = &self.bodies[body];
             let m = body.point_mass;
             s.mass += m;

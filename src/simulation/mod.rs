@@ -9,16 +9,21 @@ use crate::layout::{Departed, SortRules};
 use crate::ledger::{Ledger, Stock};
 use crate::momentum::BodyForces;
 use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
+use coupling::Coupling;
 use failure::CRUSHED;
 use field::VelocityField;
+use stages::Stage;
+use sweep::On;
 
 mod access;
+mod coupling;
 mod failure;
 mod field;
 mod scene;
 mod stages;
 mod sweep;
 
+pub use coupling::ContactPoint;
 pub use failure::StepFailure;
 pub use scene::{Acceleration, AccelerationField, Numerics, PicShare, Scene, Scheme};
 
@@ -37,6 +42,7 @@ pub struct Simulation {
     mass: f64,
 
     fields: Vec<VelocityField>,
+    coupling: Coupling,
     speeds: Vec<f64>,
 
     time: f64,
@@ -50,12 +56,23 @@ pub struct Simulation {
 impl Simulation {
     /// Takes over a scene.
     pub fn new(scene: Scene) -> Self {
-        let mut fields = vec![VelocityField::default()];
-        let mut bodies = Vec::new();
-        let mut mass = 0.0;
-        for (body, particles) in scene.bodies {
+        let (mut fields, mut bodies, mut mass) = (Vec::new(), Vec::new(), 0.0);
+        let mut common = None;
+        for (index, (body, particles)) in scene.bodies.into_iter().enumerate() {
             mass += body.point_mass * particles.len() as f64;
-            fields[0].add(bodies.len(), body.clone(), &particles);
+            // Bodies in contact have a velocity field each, all others share one.
+            let alone = scene.contacts.iter().any(|c| c.bodies.contains(&index));
+            let field = match common {
+                Some(field) if !alone => field,
+                _ => {
+                    fields.push(VelocityField::default());
+                    fields.len() - 1
+                }
+            };
+            if !alone {
+                common = Some(field);
+            }
+            fields[field].add(index, body.clone(), &particles);
             bodies.push(body);
         }
         let boundaries = scene.boundaries;
@@ -70,7 +87,8 @@ impl Simulation {
             mass,
             speeds: vec![0.0; bodies.len()],
             step_tallies: vec![Tally::default(); boundaries.len()],
-            ledger: Ledger::new(boundaries.len()),
+            ledger: Ledger::new(boundaries.len(), scene.contacts.len()),
+            coupling: Coupling::new(&scene.contacts, &fields),
             bodies,
             boundaries,
             fields,
@@ -95,9 +113,10 @@ impl Simulation {
         self.time_step = self.next_time_step();
         let dt = self.time_step.dt;
         let stages = self.numerics.scheme.stages();
-        for k in 0..self.fields.len() {
-            let (step, bands) = self.begin(k, dt);
-            sweep::sweep(stages, bands, &|&stage, before, band| step.run(stage, before, band));
+        if self.coupling.is_empty() {
+            self.sweep_all(stages, dt);
+        } else {
+            self.sweep_coupled(stages, dt);
         }
         self.time += dt;
         self.steps += 1;
@@ -106,6 +125,31 @@ impl Simulation {
         }
         self.book_impulses(dt);
         self.close_step(dt)
+    }
+
+    /// Does stages of a step on all fields.
+    fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64) {
+        for k in 0..self.fields.len() {
+            let (step, bands) = self.begin(k, dt);
+            sweep::sweep(stages, bands, &|&stage, before, band| step.run(stage, before, band));
+        }
+    }
+
+    /// Does a step on all fields, which wait for each other where their velocities meet.
+    fn sweep_coupled(&mut self, stages: &[(On, Stage)], dt: f64) {
+        if self.coupling.stale {
+            self.coupling.rebuild(&mut self.fields);
+        }
+        for part in stages.split_inclusive(|(on, _)| *on == On::Nodes) {
+            self.sweep_all(part, dt);
+            match part.last() {
+                Some((_, Stage::Momentum)) => {
+                    self.coupling.exchange(&mut self.fields, &self.boundaries, self.numerics.shape, dt);
+                }
+                Some((_, Stage::RemappedVelocities | Stage::OldVelocities)) => self.coupling.project(&mut self.fields),
+                _ => {}
+            }
+        }
     }
 
     fn next_time_step(&self) -> TimeStep {
@@ -124,6 +168,10 @@ impl Simulation {
             ledger.damping.merge(&band.distributed.damping);
             ledger.side_walls.merge(&band.distributed.side_walls);
             ledger.field.merge(&band.distributed.field);
+        }
+        for (sum, tally) in ledger.contacts.iter_mut().zip(self.coupling.tallies()) {
+            sum.merge(tally);
+            ledger.impulse_scale += tally.exchange.impulse[0].abs() + tally.exchange.impulse[1].abs();
         }
         for d in 0..2 {
             let impulse = self.mass * self.forces.gravity[d] * dt;
@@ -167,6 +215,7 @@ impl Simulation {
     fn sort(&mut self, field: usize) {
         let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
         self.fields[field].sort(&rules, &self.boundaries);
+        self.coupling.stale = true;
         for i in 0..self.fields[field].departed.len() {
             self.book_departure(self.fields[field].departed[i]);
         }
@@ -175,6 +224,7 @@ impl Simulation {
     /// Finds what holds each node.
     fn find_holds(&mut self) {
         self.fields.iter_mut().for_each(|f| f.find_holds(&self.boundaries));
+        self.coupling.stale = true;
     }
 
     fn book_departure(&mut self, departed: Departed) {
