@@ -8,6 +8,7 @@
 pub mod cantilever;
 pub mod celerity;
 pub mod collapse;
+pub mod contact;
 pub mod convergence;
 pub mod drucker_prager_point;
 pub mod earth_pressure;

@@ -38,7 +38,7 @@ fn minus(a: Vector, b: Vector) -> Vector {
 
 /// The unit vector along `a`; none where `a` is not longer than `least`.
 #[inline]
-fn direction(a: Vector, least: f64) -> Option<Vector> {
+pub fn direction(a: Vector, least: f64) -> Option<Vector> {
     let length = dot(a, a).sqrt();
     (length > least).then(|| [a[0] / length, a[1] / length])
 }

@@ -14,7 +14,7 @@ pub enum NormalRule {
     Average,
     /// By logistic regression between the points of both.
     Regression,
-    /// From the nearest face of one of the two bodies (0 or 1), which has to keep its shape to a point: a structure.
+    /// From the faces of one of the two bodies (0 or 1), a structure, that are nearest to the points of the other.
     NearestFace(usize),
     /// Given: unit normal out of the first body.
     Prescribed(Vector),

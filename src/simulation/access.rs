@@ -1,7 +1,7 @@
 //! Reading a simulation, and steering it between steps.
 
 use super::field::VelocityField;
-use super::{AccelerationField, ContactPoint, Simulation, potential};
+use super::{AccelerationField, ContactPoint, PicShare, Simulation, potential};
 use crate::band::Band;
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
@@ -92,6 +92,16 @@ impl Simulation {
     pub fn set_boundary_velocity(&mut self, index: usize, velocity: [f64; 2]) {
         self.boundaries[index].velocity = velocity.into();
         self.find_holds();
+    }
+
+    /// Changes the share of PIC.
+    pub fn set_pic(&mut self, pic: PicShare) {
+        self.numerics.pic = pic;
+    }
+
+    /// Changes the friction coefficient of a contact of two bodies.
+    pub fn set_contact_friction(&mut self, contact: usize, friction: f64) {
+        self.coupling.set_friction(contact, friction);
     }
 
     /// Releases all gates.

@@ -107,6 +107,11 @@ impl Coupling {
         &self.points
     }
 
+    /// Changes the friction coefficient of a rule.
+    pub fn set_friction(&mut self, contact: usize, friction: f64) {
+        self.interfaces[contact].set_friction(friction);
+    }
+
     /// Follows a new layout of the fields.
     pub fn rebuild(&mut self, fields: &mut [VelocityField]) {
         self.stale = false;

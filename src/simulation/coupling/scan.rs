@@ -75,6 +75,17 @@ impl Marks {
 
     /// Calls `visit` with the number of each marked node and what it sees of each point, in the order of the points.
     pub fn visit(&self, field: &VelocityField, shape: ShapeFunction, mut visit: impl FnMut(usize, &Seen)) {
+        self.visit_with(field, shape, |_| (), |number, seen, ()| visit(number, seen));
+    }
+
+    /// The same with something that is found once for each point at its position.
+    pub fn visit_with<T>(
+        &self,
+        field: &VelocityField,
+        shape: ShapeFunction,
+        mut once: impl FnMut(Vector) -> T,
+        mut visit: impl FnMut(usize, &Seen, &T),
+    ) {
         let grid = &field.grid;
         let (Some(&low), Some(&high)) = (self.starts.iter().min(), self.starts.iter().max()) else { return };
         for band in &field.bands {
@@ -94,6 +105,7 @@ impl Marks {
                             continue;
                         }
                         let [(wx, gx), (wy, gy)] = at.map(|(_, r)| weights(half_width, r));
+                        let found = once(x);
                         for a in 0..STENCIL {
                             let first = grid.row_zero[i as usize + a] + j;
                             for b in 0..STENCIL {
@@ -103,10 +115,8 @@ impl Marks {
                                     let per = grid.inverse_spacing;
                                     let gradient = [gx[a] * wy[b] * per, wx[a] * gy[b] * per];
                                     let volume_ratio = block.volume_ratio[l];
-                                    visit(
-                                        number as usize,
-                                        &Seen { id: block.id[l], x, volume_ratio, weight, gradient },
-                                    );
+                                    let seen = Seen { id: block.id[l], x, volume_ratio, weight, gradient };
+                                    visit(number as usize, &seen, &found);
                                 }
                             }
                         }

@@ -5,7 +5,7 @@ use super::{Pending, SharedNode, SharedSide, VelocityField};
 use crate::contact::normal::{GradientRule, Sample, from_gradients, from_positions};
 use crate::contact::outline::{Outline, Surface};
 use crate::contact::rule::{ContactRule, ContactTally, GapRule, NormalRule};
-use crate::contact::{Vector, regression, separation};
+use crate::contact::{Vector, direction, regression, separation};
 use crate::shape::ShapeFunction;
 
 /// Points of either body that a node has room for in a regression.
@@ -22,6 +22,8 @@ struct View {
     samples: [Sample; 2],
     clouds: [Vec<Vector>; 2],
     normal: Option<Vector>,
+    /// Sum of the normals at the points of the other body, by their weight.
+    faces: Vector,
     /// How far either body reaches along the normal, from the node, m.
     extents: [f64; 2],
 }
@@ -91,6 +93,11 @@ impl Interface {
         self.rule.friction
     }
 
+    /// Changes the friction coefficient.
+    pub fn set_friction(&mut self, friction: f64) {
+        self.rule.friction = friction;
+    }
+
     pub fn rebuild(&mut self, fields: &[VelocityField], nodes: &[SharedNode], sides: &[SharedSide]) {
         self.views.clear();
         for (node, shared) in nodes.iter().enumerate() {
@@ -155,6 +162,7 @@ impl Interface {
                 view.samples = Default::default();
                 view.clouds.iter_mut().for_each(Vec::clear);
                 view.extents = [f64::NEG_INFINITY; 2];
+                view.faces = [0.0; 2];
                 for ((marks, &f), place) in self.marks.iter_mut().zip(&self.fields).zip(view.places) {
                     marks.set(&fields[f].grid, place, k);
                 }
@@ -165,7 +173,10 @@ impl Interface {
         }
         let h = fields[self.fields[0]].grid.spacing;
         self.sample(fields, shape, nodes);
-        self.find_normals(fields, nodes, h);
+        if let NormalRule::NearestFace(structure) = self.rule.normal {
+            self.find_faces(structure, fields, shape);
+        }
+        self.find_normals(nodes, h);
         self.measure_extents(fields, shape, nodes);
         self.marks.iter_mut().for_each(Marks::clear);
         for &k in &self.active {
@@ -213,14 +224,35 @@ impl Interface {
         }
     }
 
-    fn find_normals(&mut self, fields: &[VelocityField], nodes: &[SharedNode], h: f64) {
-        if let NormalRule::NearestFace(k) = self.rule.normal {
-            let field = &fields[self.fields[k]];
-            let mut places = self.places.iter();
-            for (surface, ring) in self.surfaces.iter_mut().zip(&self.outline.rings) {
-                surface.follow(places.by_ref().take(ring.len()).map(|&(b, i)| field.bands[b].points[0].position(i)));
-            }
+    /// Lets every point of the other body find the nearest face of the structure: its normal counts for the nodes that see the
+    /// point, and its distance for how far the point is from touching. What nodes lie nearest to does not matter: beside a corner
+    /// that is a face the other body does not touch.
+    fn find_faces(&mut self, structure: usize, fields: &[VelocityField], shape: ShapeFunction) {
+        let field = &fields[self.fields[structure]];
+        let mut places = self.places.iter();
+        for (surface, ring) in self.surfaces.iter_mut().zip(&self.outline.rings) {
+            surface.follow(places.by_ref().take(ring.len()).map(|&(b, i)| field.bands[b].points[0].position(i)));
         }
+        let other = 1 - structure;
+        let field = &fields[self.fields[other]];
+        let radius = 0.5 * field.bodies[0].point_spacing;
+        let (views, surfaces) = (&mut self.views, &self.surfaces);
+        let nearest = |x: Vector| {
+            let all = surfaces.iter().filter_map(|s| s.nearest(x));
+            all.min_by(|p, q| p.distance.total_cmp(&q.distance))
+        };
+        self.marks[other].visit_with(field, shape, nearest, |k, seen, face| {
+            let Some(face) = face else { return };
+            let view = &mut views[k];
+            for (sum, n) in view.faces.iter_mut().zip(face.normal) {
+                *sum += seen.weight * n;
+            }
+            view.extents[other] = view.extents[other].max(radius - face.distance);
+            view.extents[structure] = 0.0;
+        });
+    }
+
+    fn find_normals(&mut self, nodes: &[SharedNode], h: f64) {
         for &k in &self.active {
             let view = &mut self.views[k];
             let x = nodes[view.node].x;
@@ -231,27 +263,18 @@ impl Interface {
                 NormalRule::Average => gradient(GradientRule::Average).or_else(|| from_positions(a, b)),
                 NormalRule::Regression => regression::normal(&view.clouds[0], &view.clouds[1], x, h),
                 NormalRule::Prescribed(n) => Some(n),
-                NormalRule::NearestFace(own) => {
-                    let nearest = self.surfaces.iter().filter_map(|s| s.nearest(x));
-                    nearest.min_by(|p, q| p.distance.total_cmp(&q.distance)).map(|n| {
-                        // The structure reaches to its surface.
-                        view.extents[own] = -n.distance;
-                        if own == 0 { n.normal } else { [-n.normal[0], -n.normal[1]] }
-                    })
-                }
+                NormalRule::NearestFace(0) => direction(view.faces, 0.0),
+                NormalRule::NearestFace(_) => direction(view.faces.map(|n| -n), 0.0),
             };
         }
     }
 
     /// How far the points of either body reach along the normal towards the other, counted from the node.
     fn measure_extents(&mut self, fields: &[VelocityField], shape: ShapeFunction, nodes: &[SharedNode]) {
-        if self.rule.gap != GapRule::Extents {
+        if self.rule.gap != GapRule::Extents || matches!(self.rule.normal, NormalRule::NearestFace(_)) {
             return;
         }
         for side in 0..2 {
-            if self.rule.normal == NormalRule::NearestFace(side) {
-                continue;
-            }
             let field = &fields[self.fields[side]];
             let radius = 0.5 * field.bodies[0].point_spacing;
             let sign = if side == 0 { 1.0 } else { -1.0 };
