@@ -173,4 +173,269 @@ mod explore {
             }
         }
     }
+
+    #[test]
+    fn deposit() {
+        use crate::boundary::*;
+        use crate::constitutive::*;
+        use crate::contact::outline::Outline;
+        use crate::gauge::penetration;
+        use nalgebra::Vector2;
+        let h = 0.02;
+        for young in [5e5, 5e7] {
+            let wall_m = Material::new(young, 0.2, 1200.0);
+            let slope = 40.0f64.to_radians();
+            let mut rules: Vec<(String, Option<ContactRule>)> = vec![("shared".into(), None)];
+            for (nn, normal) in NORMALS {
+                for (gn, gap) in GAPS {
+                    if matches!(gap, GapRule::Displacements) || matches!(normal, NormalRule::NearestFace(1)) {
+                        continue;
+                    }
+                    rules.push((
+                        format!("{nn}, {gn}"),
+                        Some(ContactRule { bodies: [0, 1], friction: 0.4, normal, gap }),
+                    ));
+                }
+            }
+            for (name, rule) in rules {
+                let wall = Part::new(Brick::new([0.6, -2.0 * h], [5, 17], h), wall_m);
+                let sand_b = Brick::new([0.0, 0.0], [10, 10], h);
+                let sand_m = Material::new(1e6, 0.3, 1530.0);
+                let outline =
+                    Outline::trace(&wall.points.iter().map(|p| (p.id, p.x)).collect::<Vec<_>>(), 0.5 * h, 0.0);
+                let bed =
+                    Boundary::plane("bed", Vector2::new(0.0, 0.0), Vector2::new(0.0, 1.0), Friction::Coulomb(0.4))
+                        .only_for(&[1]);
+                let back = Boundary::plane("back", Vector2::new(0.0, 0.0), Vector2::new(1.0, 0.0), Friction::Smooth)
+                    .only_for(&[1]);
+                let mut clamp =
+                    Boundary::plane("clamp", Vector2::new(0.6, 0.0), Vector2::new(0.0, 1.0), Friction::Bonded)
+                        .only_for(&[0]);
+                if rule.is_none() {
+                    clamp = Boundary::plane(
+                        "clamp",
+                        Vector2::new(0.6, 0.0),
+                        Vector2::new(0.0, 1.0),
+                        Friction::Coulomb(0.4),
+                    );
+                }
+                let mut scene = several(
+                    vec![wall, Part::new(sand_b, sand_m)],
+                    rule.into_iter().collect(),
+                    vec![bed, back, clamp],
+                    &Fault::NONE,
+                );
+                scene.bodies[1].0.law = AnyLaw::DruckerPrager(DruckerPrager::new(
+                    LinearElastic::new(1e6, 0.3),
+                    Cone::TriaxialCompression,
+                    31f64.to_radians(),
+                    0.0,
+                    0.0,
+                    f64::INFINITY,
+                    true,
+                ));
+                scene.gravity = [9.81 * slope.sin(), -9.81 * slope.cos()];
+                scene.numerics.pic = PicShare::Fraction(5e-4);
+                scene.domain = [[-0.5, 2.0], [-0.5, 2.0]];
+                let mut sim = Simulation::new(scene);
+                let start = std::time::Instant::now();
+                let mut err = None;
+                let mut deep = 0.0f64;
+                let mut peak = 0.0f64;
+                let mut worst = 0.0f64;
+                let mut k = 0;
+                let mut win = [0.0; 2];
+                let mut stat = [0.0; 2];
+                let mut clampf = 0.0f64;
+                while sim.time() < 1.5 {
+                    if let Err(e) = sim.step() {
+                        err = Some(e.to_string().chars().take(70).collect::<String>());
+                        break;
+                    }
+                    k += 1;
+                    if k % 20 == 0 {
+                        deep = deep.max(penetration::measure(&sim, 0, &outline, h).deepest);
+                        let e = sim.energy_balance(&sim.stock(), [0.6, 0.0]);
+                        worst = worst.max((e.residual / e.initial).abs());
+                    }
+                    let dt = sim.time_step().dt;
+                    let f = sim.contact_tallies().next().map_or(0.0, |t| -t.exchange.impulse[0]);
+                    win = [win[0] + f, win[1] + dt];
+                    if sim.time() > 1.2 {
+                        stat = [stat[0] + f, stat[1] + dt];
+                        clampf += -sim.step_tallies()[2].impulse[0];
+                    }
+                    if win[1] > 0.02 {
+                        peak = peak.max(win[0] / win[1]);
+                        win = [0.0; 2];
+                    }
+                }
+                let e = sim.energy_balance(&sim.stock(), [0.6, 0.0]);
+                let pen = penetration::measure(&sim, 0, &outline, 0.5 * h);
+                println!(
+                    "E {young:.0e} {name:40} peak {peak:6.1} static {:6.1} clamp {:6.1} deep {:.2} h beyond {:.3} kg  kin {:.1e} plast {:.3} fr {:.3} {:.3} {:.3} imp {:.4} res {:+.4} worst {:.4} {:.1}us/step {:?}",
+                    stat[0] / stat[1],
+                    clampf / stat[1],
+                    deep / h,
+                    pen.mass_beyond,
+                    e.kinetic / e.initial,
+                    e.plastic / e.initial,
+                    e.friction[0] / e.initial,
+                    e.friction.get(3).unwrap_or(&0.0) / e.initial,
+                    e.friction[2] / e.initial,
+                    e.contact.get(3).unwrap_or(&0.0) / e.initial,
+                    e.residual / e.initial,
+                    worst,
+                    start.elapsed().as_micros() as f64 / k as f64,
+                    err
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn stiff() {
+        use crate::boundary::*;
+        use crate::constitutive::*;
+        use crate::contact::outline::Outline;
+        use crate::gauge::penetration;
+        use nalgebra::Vector2;
+        let h = 0.02;
+        for young in [5e7] {
+            let wall_m = Material::new(young, 0.2, 1200.0);
+            let slope = 40.0f64.to_radians();
+            let mut rules: Vec<(String, Option<ContactRule>)> = vec![];
+            for (nn, normal) in NORMALS {
+                for (gn, gap) in GAPS {
+                    if matches!(gap, GapRule::Displacements) || matches!(normal, NormalRule::NearestFace(1)) {
+                        continue;
+                    }
+                    rules.push((
+                        format!("{nn}, {gn}"),
+                        Some(ContactRule { bodies: [0, 1], friction: 0.4, normal, gap }),
+                    ));
+                }
+            }
+            for (name, rule) in rules {
+                let wall = Part::new(Brick::new([0.6, -2.0 * h], [5, 17], h), wall_m);
+                let sand_b = Brick::new([0.0, 0.0], [10, 10], h);
+                let sand_m = Material::new(1e6, 0.3, 1530.0);
+                let outline =
+                    Outline::trace(&wall.points.iter().map(|p| (p.id, p.x)).collect::<Vec<_>>(), 0.5 * h, 0.0);
+                let bed =
+                    Boundary::plane("bed", Vector2::new(0.0, 0.0), Vector2::new(0.0, 1.0), Friction::Coulomb(0.4))
+                        .only_for(&[1]);
+                let back = Boundary::plane("back", Vector2::new(0.0, 0.0), Vector2::new(1.0, 0.0), Friction::Smooth)
+                    .only_for(&[1]);
+                let mut clamp =
+                    Boundary::plane("clamp", Vector2::new(0.6, 0.0), Vector2::new(0.0, 1.0), Friction::Bonded)
+                        .only_for(&[0]);
+                if rule.is_none() {
+                    clamp = Boundary::plane(
+                        "clamp",
+                        Vector2::new(0.6, 0.0),
+                        Vector2::new(0.0, 1.0),
+                        Friction::Coulomb(0.4),
+                    );
+                }
+                let mut scene = several(
+                    vec![wall, Part::new(sand_b, sand_m)],
+                    rule.into_iter().collect(),
+                    vec![bed, back, clamp],
+                    &Fault::NONE,
+                );
+                scene.bodies[1].0.law = AnyLaw::DruckerPrager(DruckerPrager::new(
+                    LinearElastic::new(1e6, 0.3),
+                    Cone::TriaxialCompression,
+                    31f64.to_radians(),
+                    0.0,
+                    0.0,
+                    f64::INFINITY,
+                    true,
+                ));
+                scene.gravity = [9.81 * slope.sin(), -9.81 * slope.cos()];
+                scene.numerics.pic = PicShare::Fraction(5e-4);
+                scene.domain = [[-0.5, 2.0], [-0.5, 2.0]];
+                let mut sim = Simulation::new(scene);
+                let start = std::time::Instant::now();
+                let mut err = None;
+                let mut deep = 0.0f64;
+                let mut peak = 0.0f64;
+                let mut worst = 0.0f64;
+                let mut k = 0;
+                let mut win = [0.0; 2];
+                let mut stat = [0.0; 2];
+                let mut clampf = 0.0f64;
+                while sim.time() < 0.37 {
+                    if let Err(e) = sim.step() {
+                        err = Some(e.to_string());
+                        break;
+                    }
+                    k += 1;
+                    if sim.time() > 0.30 && k % 20 == 0 && k < 9700 {
+                        let s = sim.stock_of(|b| b == 0);
+                        let q = sim.stock_of(|b| b == 1);
+                        let big = sim
+                            .contact_points()
+                            .iter()
+                            .map(|p| (p.impulse[0].abs() + p.impulse[1].abs(), p.x, p.normal, p.impulse))
+                            .max_by(|a, b| a.0.total_cmp(&b.0));
+                        let fast = sim
+                            .particles()
+                            .filter(|(b, _)| *b == 0)
+                            .max_by(|a, b| a.1.speed().total_cmp(&b.1.speed()))
+                            .unwrap()
+                            .1;
+                        println!(
+                            "{} t {:.5} K {:.3e} E {:.3e} sand K {:.3e} n {} big {:?} fast {:.3} at {:?}",
+                            k,
+                            sim.time(),
+                            s.kinetic,
+                            s.elastic,
+                            q.kinetic,
+                            sim.contact_points().len(),
+                            big,
+                            fast.speed(),
+                            fast.x
+                        );
+                    }
+                    if k % 20 == 0 {
+                        deep = deep.max(penetration::measure(&sim, 0, &outline, h).deepest);
+                        let e = sim.energy_balance(&sim.stock(), [0.6, 0.0]);
+                        worst = worst.max((e.residual / e.initial).abs());
+                    }
+                    let dt = sim.time_step().dt;
+                    let f = sim.contact_tallies().next().map_or(0.0, |t| -t.exchange.impulse[0]);
+                    win = [win[0] + f, win[1] + dt];
+                    if sim.time() > 1.2 {
+                        stat = [stat[0] + f, stat[1] + dt];
+                        clampf += -sim.step_tallies()[2].impulse[0];
+                    }
+                    if win[1] > 0.02 {
+                        peak = peak.max(win[0] / win[1]);
+                        win = [0.0; 2];
+                    }
+                }
+                let e = sim.energy_balance(&sim.stock(), [0.6, 0.0]);
+                let pen = penetration::measure(&sim, 0, &outline, 0.5 * h);
+                println!(
+                    "E {young:.0e} {name:40} peak {peak:6.1} static {:6.1} clamp {:6.1} deep {:.2} h beyond {:.3} kg  kin {:.1e} plast {:.3} fr {:.3} {:.3} {:.3} imp {:.4} res {:+.4} worst {:.4} {:.1}us/step {:?}",
+                    stat[0] / stat[1],
+                    clampf / stat[1],
+                    deep / h,
+                    pen.mass_beyond,
+                    e.kinetic / e.initial,
+                    e.plastic / e.initial,
+                    e.friction[0] / e.initial,
+                    e.friction.get(3).unwrap_or(&0.0) / e.initial,
+                    e.friction[2] / e.initial,
+                    e.contact.get(3).unwrap_or(&0.0) / e.initial,
+                    e.residual / e.initial,
+                    worst,
+                    start.elapsed().as_micros() as f64 / k as f64,
+                    err
+                );
+            }
+        }
+    }
 }
