@@ -28,6 +28,8 @@ pub struct Side {
     pub velocity: Vector,
     /// Whether a clamp prescribes the velocity: contact leaves it alone, and the impulse goes into the clamp.
     pub fixed: bool,
+    /// Whether other boundaries act on the body.
+    pub held: bool,
 }
 
 impl Side {
@@ -55,13 +57,13 @@ pub fn solve(sides: &mut [Side], touches: &mut [Touch]) {
 /// The same with boundaries that hold some of the bodies. `hold` is given the index of a side, its mass, its velocity, and
 /// whether friction counts; it brings the impulses of all boundaries that act on the side up to date with its velocity.
 ///
-/// A pair pressed on a boundary gives way less than two free bodies would: each pair learns from its last visit how much.
+/// A body that is a hundred times lighter than another that presses it on a boundary may keep some hundredths of its approach.
 pub fn solve_held(
     sides: &mut [Side],
     touches: &mut [Touch],
     mut hold: Option<impl FnMut(usize, f64, &mut Vector, bool)>,
 ) {
-    touches.iter_mut().for_each(|t| t.reset(sides));
+    touches.iter_mut().for_each(Touch::reset);
     if touches.len() == 1 && hold.is_none() {
         // Normal and tangential part do not see each other: one visit is exact.
         touches[0].relax(sides, touches[0].friction);
@@ -72,20 +74,14 @@ pub fn solve_held(
     for with_friction in [false, true] {
         for _ in 0..SWEEPS {
             let mut settling = Settling::default();
-            let alone = touches.len() == 1;
             for touch in touches.iter_mut() {
-                let start = touch.motion(sides);
                 let before = touch.sides.map(|s| sides[s].velocity);
-                let change = touch.relax(sides, if with_friction { touch.friction } else { 0.0 });
+                touch.relax(sides, if with_friction { touch.friction } else { 0.0 });
                 for (s, before) in touch.sides.into_iter().zip(before) {
                     settling.see(before, sides[s].velocity);
                 }
-                if let (true, Some(hold)) = (alone, hold.as_mut()) {
-                    visit(sides, hold, with_friction, &mut settling);
-                    touch.learn(sides, start, change);
-                }
             }
-            if let (false, Some(hold)) = (alone, hold.as_mut()) {
+            if let Some(hold) = hold.as_mut() {
                 visit(sides, hold, with_friction, &mut settling);
             }
             if settling.is_done() {
@@ -95,14 +91,14 @@ pub fn solve_held(
     }
 }
 
-/// Lets the boundaries act on every side that is not fixed.
+/// Lets the boundaries act on every side that they hold.
 fn visit(
     sides: &mut [Side],
     hold: &mut impl FnMut(usize, f64, &mut Vector, bool),
     with_friction: bool,
     settling: &mut Settling,
 ) {
-    for (k, side) in sides.iter_mut().enumerate().filter(|(_, s)| !s.fixed) {
+    for (k, side) in sides.iter_mut().enumerate().filter(|(_, s)| s.held && !s.fixed) {
         let before = side.velocity;
         hold(k, side.mass, &mut side.velocity, with_friction);
         settling.see(before, side.velocity);

@@ -3,9 +3,6 @@
 use super::node::Side;
 use super::{Vector, minus};
 
-/// Least share of the free response that a pair held by boundaries can have.
-const LEAST_RESPONSE: f64 = 1e-9;
-
 /// How two bodies move at a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum State {
@@ -32,8 +29,6 @@ pub struct Touch {
     /// Impulse on the second body along the normal and along the normal turned clockwise, N s.
     impulse: Vector,
     state: State,
-    /// Relative velocity per impulse, along the normal and along the surface, 1/kg.
-    response: Vector,
 }
 
 /// What two bodies did to each other.
@@ -60,7 +55,7 @@ impl Exchange {
 impl Touch {
     /// Two bodies whose surfaces touch.
     pub fn new(sides: [usize; 2], normal: Vector, friction: f64) -> Self {
-        Self { sides, normal, friction, slack: 0.0, impulse: [0.0; 2], state: State::Apart, response: [0.0; 2] }
+        Self { sides, normal, friction, slack: 0.0, impulse: [0.0; 2], state: State::Apart }
     }
 
     /// The same with a speed of approach (m/s) that is free.
@@ -91,35 +86,27 @@ impl Touch {
         }
     }
 
-    /// Forgets the impulses and counts the two bodies as free.
-    pub(super) fn reset(&mut self, sides: &[Side]) {
-        let [a, b] = self.sides;
+    /// Forgets the impulses.
+    pub(super) fn reset(&mut self) {
         self.impulse = [0.0; 2];
         self.state = State::Apart;
-        self.response = [sides[a].mobility() + sides[b].mobility(); 2];
     }
 
-    /// Speeds of approach and of sliding, m/s.
-    #[inline(always)]
-    pub(super) fn motion(&self, sides: &[Side]) -> Vector {
-        let [a, b] = self.sides;
-        let [nx, ny] = self.normal;
-        let relative = minus(sides[a].velocity, sides[b].velocity);
-        [relative[0] * nx + relative[1] * ny - self.slack, relative[0] * ny - relative[1] * nx]
-    }
-
-    /// One Gauss-Seidel visit with the given friction coefficient: the change of the impulses, N s.
+    /// One Gauss-Seidel visit with the given friction coefficient.
     #[inline]
-    pub(super) fn relax(&mut self, sides: &mut [Side], friction: f64) -> Vector {
+    pub(super) fn relax(&mut self, sides: &mut [Side], friction: f64) {
         let [a, b] = self.sides;
         let [nx, ny] = self.normal;
         let (to_a, to_b) = (sides[a].mobility(), sides[b].mobility());
-        if to_a + to_b <= 0.0 {
-            return [0.0; 2];
+        let mobility = to_a + to_b;
+        if mobility <= 0.0 {
+            return;
         }
-        let [approach, sliding] = self.motion(sides);
-        let normal = (self.impulse[0] + approach / self.response[0]).max(0.0);
-        let stick = self.impulse[1] + sliding / self.response[1];
+        let relative = minus(sides[a].velocity, sides[b].velocity);
+        let approach = relative[0] * nx + relative[1] * ny - self.slack;
+        let normal = (self.impulse[0] + approach / mobility).max(0.0);
+        let sliding = relative[0] * ny - relative[1] * nx;
+        let stick = self.impulse[1] + sliding / mobility;
         // Without pressure there is no friction; 0 x infinity must not arise.
         let limit = if normal > 0.0 { friction * normal } else { 0.0 };
         let tangential = stick.clamp(-limit, limit);
@@ -134,20 +121,6 @@ impl Touch {
         for (d, p) in change.into_iter().enumerate() {
             sides[a].velocity[d] -= to_a * p;
             sides[b].velocity[d] += to_b * p;
-        }
-        [dn, dt]
-    }
-
-    /// Learns from what became of a visit how much the bodies give way where boundaries hold them: at most as free bodies.
-    pub(super) fn learn(&mut self, sides: &[Side], before: Vector, change: Vector) {
-        let [a, b] = self.sides;
-        let free = sides[a].mobility() + sides[b].mobility();
-        let after = self.motion(sides);
-        for d in 0..2 {
-            let response = (before[d] - after[d]) / change[d];
-            if response.is_finite() {
-                self.response[d] = response.clamp(LEAST_RESPONSE * free, free);
-            }
         }
     }
 }

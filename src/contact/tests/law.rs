@@ -6,7 +6,7 @@ use crate::contact::{Vector, dot, minus};
 use crate::verification::scene::Lcg;
 
 fn side(mass: f64, old: Vector, velocity: Vector) -> Side {
-    Side { mass, old, velocity, fixed: false }
+    Side { mass, old, velocity, fixed: false, held: false }
 }
 
 fn momentum(sides: &[Side]) -> Vector {
@@ -174,7 +174,7 @@ fn a_clamped_body_acts_as_one_of_infinite_mass() {
     assert!((p[0] - 3.0).abs() < 1e-15 && (p[1] - 0.6).abs() < 1e-15, "{p:?}");
 
     // The same when the clamp is a boundary that is visited in turn.
-    let free = Side { fixed: false, ..clamped };
+    let free = Side { fixed: false, held: true, ..clamped };
     let mut visited = [side(1.5, v, v), free];
     let mut taken = [0.0; 2];
     solve_held(
@@ -200,6 +200,7 @@ fn a_floor_under_one_of_two_bodies_carries_what_the_other_presses_down() {
     // A body pushed by another along a slope into a smooth floor: the conditions at both surfaces hold together.
     let n = [0.6, -0.8];
     let mut sides = [side(1.0, [0.0; 2], [1.0, -1.0]), side(2.0, [0.0; 2], [0.0, -0.1])];
+    sides[1].held = true;
     let mut touches = [Touch::new([0, 1], n, 0.0)];
     let mut floor = 0.0;
     solve_held(
@@ -257,5 +258,37 @@ fn projection_keeps_momentum_and_creates_no_energy() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn a_corner_of_floor_and_contact_for_any_masses() {
+    // A body between a floor with friction and another body with friction, of which either may be ten times lighter.
+    let mut rng = Lcg::new(17);
+    for _ in 0..2000 {
+        let (mut sides, mut touches) = random(&mut rng, 2);
+        sides[1].mass = sides[0].mass * 10f64.powf(rng.signed());
+        sides[1].held = true;
+        let start = kinetic(&sides);
+        let (mu, mut p) = (0.4, [0.0; 2]);
+        solve_held(
+            &mut sides,
+            &mut touches,
+            Some(|_: usize, m: f64, v: &mut Vector, with_friction: bool| {
+                let normal = f64::max(p[1] - m * v[1], 0.0);
+                v[1] += (normal - p[1]) / m;
+                p[1] = normal;
+                let limit = if with_friction { mu * normal } else { 0.0 };
+                let along = (p[0] - m * v[0]).clamp(-limit, limit);
+                v[0] += (along - p[0]) / m;
+                p[0] = along;
+            }),
+        );
+        assert!(kinetic(&sides) <= start * (1.0 + 1e-9), "no energy from nothing");
+        let touch = &touches[0];
+        let relative = minus(sides[0].velocity, sides[1].velocity);
+        let scale = start.sqrt() / sides[0].mass.min(sides[1].mass).sqrt();
+        assert!(dot(relative, touch.normal) < 1e-6 * scale, "{relative:?} {touch:?}");
+        assert!(sides[1].velocity[1] > -1e-6 * scale);
     }
 }

@@ -62,10 +62,11 @@ impl Coupling {
         for (k, (side, at)) in sides.iter_mut().zip(own).enumerate() {
             let nodes = &fields[at.field].bands[at.band].nodes;
             let open = &nodes.open[at.index];
-            *side = Side { mass: open.mass, old: open.old, velocity: open.free, fixed: false };
+            *side = Side { mass: open.mass, old: open.old, velocity: open.free, fixed: false, held: false };
             if open.mass > 0.0 {
                 self.holds.extend_from_slice(&nodes.holds[at.holds.clone()]);
             }
+            side.held = open.mass > 0.0 && !at.holds.is_empty();
             ends[k] = self.holds.len();
         }
         nodes::reset(&mut self.holds);
@@ -84,8 +85,7 @@ impl Coupling {
                 }
             }
             let touches = &mut self.touches[first..];
-            let held = |k: usize| !range(k).is_empty();
-            if (0..sides.len()).any(|k| held(k) && !sides[k].fixed) {
+            if sides.iter().any(|s| s.held && !s.fixed) {
                 let holds = &mut self.holds;
                 let hold = |k: usize, m: f64, v: &mut Vector, with_friction: bool| {
                     nodes::visit(&mut holds[range(k)], boundaries, m, v, with_friction);
@@ -157,7 +157,7 @@ impl Coupling {
             let mut sides: Sides = Default::default();
             for (k, (side, at)) in sides.iter_mut().zip(own).enumerate() {
                 let velocity = fields[at.field].bands[at.band].nodes.strain_velocity[at.node];
-                *side = Side { mass: solved.masses[k], velocity, old: velocity, fixed: solved.clamped[k] };
+                *side = Side { mass: solved.masses[k], velocity, old: velocity, fixed: solved.clamped[k], held: false };
             }
             node::project(&mut sides[..own.len()], &self.touches[solved.touches.clone()]);
             for (side, at) in sides.iter_mut().zip(own).filter(|(s, _)| s.mass > 0.0) {
