@@ -180,7 +180,7 @@ fn axes(what: &Curves, curves: &[Drawn]) -> [Axis; 2] {
     [x, Axis::decades(y0, y1)]
 }
 
-/// Thin lines of given slopes through the middle of the panel, named at their ends.
+/// Thin lines of given slopes from the largest value on the left, named at their ends.
 fn guides(
     canvas: &Canvas<'_>,
     frame: &Frame<'_>,
@@ -189,11 +189,11 @@ fn guides(
     curves: &[Drawn],
     [upper, lower]: [i32; 2],
 ) -> Result<(), PlotError> {
-    let Some(top) = curves.iter().flat_map(|d| &d.points).map(|p| p.1).filter(|y| y.is_finite()).max_by(f64::total_cmp)
-    else {
+    let (a, b) = (x.ticks[0], x.ticks[x.ticks.len() - 1]);
+    let coarsest = curves.iter().flat_map(|d| &d.points).filter(|p| (p.0 - a).abs() < 1e-9 && p.1.is_finite());
+    let Some(top) = coarsest.map(|p| p.1).max_by(f64::total_cmp) else {
         return Ok(());
     };
-    let (a, b) = (x.ticks[0], x.ticks[x.ticks.len() - 1]);
     for order in orders {
         let from = frame.spot(a, top);
         let to = frame.spot(b, top - order * (b - a));
