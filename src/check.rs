@@ -172,7 +172,8 @@ impl Check {
     }
 
     /// How much of what is allowed is used up: the distance from what is expected, or from the middle of a span, over the
-    /// farthest that still passes; for a bound the value over the bound. At most 1 where the check passes, NaN for NaN.
+    /// farthest that still passes; for an upper bound the value over it, for a lower one 1 and the share by which it is missed. At
+    /// most 1 where the check passes, NaN for NaN.
     pub fn share_used(&self) -> f64 {
         let (measured, allowed) = (self.measured, self.allowed());
         let over = |x: f64, y: f64| if x == 0.0 { 0.0 } else { x / y };
@@ -183,7 +184,7 @@ impl Check {
             Expected::Value(v) => over((measured - v).abs(), allowed),
             Expected::Within(low, high) => over((measured - 0.5 * (low + high)).abs(), 0.5 * (high - low) + allowed),
             Expected::AtMost(high) if high + allowed > 0.0 => over(measured.max(0.0), high + allowed),
-            Expected::AtLeast(low) if low - allowed > 0.0 && measured > 0.0 => (low - allowed) / measured,
+            Expected::AtLeast(low) if low - allowed > 0.0 => (2.0 - measured / (low - allowed)).max(0.0),
             // A bound at zero or beyond has no scale of its own.
             _ => over(self.error(), allowed),
         }
@@ -357,7 +358,8 @@ mod tests {
             (0.5, Expected::AtMost(2.0), none, 0.25),
             (-3.0, Expected::AtMost(2.0), none, 0.0),
             (6.0, Expected::AtMost(2.0), Tolerance::Absolute(1.0), 2.0),
-            (0.75, Expected::AtLeast(1.5), none, 2.0),
+            (0.75, Expected::AtLeast(1.5), none, 1.5),
+            (-1.5, Expected::AtLeast(1.5), none, 3.0),
             (2.5, Expected::Within(1.0, 3.0), none, 0.5),
             (5.0, Expected::Within(1.0, 3.0), Tolerance::Absolute(1.0), 1.5),
             (-1.0, Expected::AtLeast(0.0), none, f64::INFINITY),

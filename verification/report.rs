@@ -9,6 +9,8 @@ use std::path::Path;
 
 /// Significant digits in reports.
 pub const DIGITS: usize = 9;
+/// The same of how many times its tolerance an error is.
+const RATIO_DIGITS: usize = 2;
 
 /// Everything that a rung leaves behind, as (name without extension, CSV text): its checks, then its tables.
 pub fn files(name: &str, outcome: &Outcome) -> Vec<(String, String)> {
@@ -122,11 +124,14 @@ impl Caught {
             .iter()
             .filter(|c| c.measured.is_finite() && c.kind != Kind::Golden && c.share_used() > 1.0)
             .collect();
-        let sharpest = failing.iter().max_by(|a, b| a.share_used().total_cmp(&b.share_used()));
+        // The first of those that share the largest ratio, as far as it is written down.
+        let largest = failing.iter().map(|c| c.share_used()).fold(0.0, f64::max);
+        let written = |x: f64| significant(x, RATIO_DIGITS);
+        let sharpest = failing.iter().find(|c| written(c.share_used()) == written(largest));
         Self {
             failing: failing.len(),
             checks: outcome.checks.len(),
-            ratio: sharpest.map_or(0.0, |c| c.share_used()),
+            ratio: largest,
             sharpest: sharpest.map_or_else(String::new, |c| c.what.clone()),
             ..nothing
         }
@@ -137,7 +142,7 @@ impl Caught {
 pub fn faults_csv(rows: &[Caught]) -> String {
     let mut text = String::from("rung,fault,factor,failing_checks,checks,detection_ratio,sharpest_check\n");
     for c in rows {
-        let ratio = significant(c.ratio, 2);
+        let ratio = significant(c.ratio, RATIO_DIGITS);
         let (factor, sharpest) = (number(c.factor), quoted(&c.sharpest));
         let cells = [c.rung, c.fault.name(), &factor, &c.failing.to_string(), &c.checks.to_string(), &ratio, &sharpest];
         text.push_str(&cells.join(","));
