@@ -65,7 +65,7 @@ pub const FIGURES: &[Figure] = &[
         Curves {
             x: "cells_per_radius",
             x_title: "cells per radius",
-            y_title: "relative change of angular momentum in 0.35 revolutions",
+            y_title: "change of angular momentum in 0.35 turns, relative",
             curves: &[measured("angular_momentum_change", "spinning disk")],
             orders: &[2.0],
             ..Curves::LOGARITHMIC
@@ -196,7 +196,7 @@ pub const FIGURES: &[Figure] = &[
         Curves {
             x: "cfl",
             x_title: "c dt / h",
-            y_title: "energy to and fro within a period, over the energy",
+            y_title: "energy to and fro within a period, relative",
             curves: &[measured("energy_to_and_fro", ""), exact("energy_to_and_fro_exact", "w dt / 2")],
             split: &[("scheme", ""), ("cells", "cells ")],
             ..Curves::LOGARITHMIC
@@ -293,7 +293,7 @@ pub const FIGURES: &[Figure] = &[
         Curves {
             x: "cells_through_depth",
             x_title: "cells through the depth",
-            y_title: "size of the relative error of the deflection",
+            y_title: "error of the deflection, relative",
             curves: &[measured("deflection_error", "")],
             panels: &[panel("uGIMP", &[("shape", "uGIMP")]), panel("B-spline", &[("shape", "B-spline")])],
             split: &[("load", ""), ("length_over_depth", "L/t "), ("poisson", "nu ")],

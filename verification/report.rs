@@ -198,6 +198,34 @@ fn quoted(s: &str) -> String {
 mod tests {
     use super::*;
     use crate::check::Tolerance;
+    use crate::verification::RungFailure;
+
+    /// A rung whose checks fail, but only one of them on a number that was measured against physics.
+    fn failing(fault: &Fault) -> Result<Outcome, RungFailure> {
+        let check = |what: &str, measured: f64, kind| {
+            let reason = "a tenth";
+            Check::value(what, measured, 1.0, "1").within(Tolerance::Absolute(0.1), reason).from(kind, "s")
+        };
+        let mut outcome = Outcome::default();
+        outcome.check(check("broken", f64::NAN, Kind::Analytic));
+        outcome.check(check("diverged", f64::INFINITY, Kind::Analytic));
+        outcome.check(check("changed", 7.0, Kind::Golden));
+        outcome.check(Check { source: String::new(), ..check("unsourced", 1.0, Kind::Analytic) });
+        outcome.check(check("friction", fault.friction, Kind::Analytic));
+        Ok(outcome)
+    }
+
+    #[test]
+    fn only_numbers_that_miss_physics_catch_a_fault() {
+        let rung = Rung { name: "r", title: "t", run: failing, covers: &[], under_fault: "all" };
+        let caught = Caught::by(&rung, FaultKind::Friction, 1.25);
+        assert_eq!((caught.failing, caught.checks, caught.sharpest.as_str()), (1, 5, "friction"));
+        assert!((caught.ratio - 2.5).abs() < 1e-9);
+        let missed = Caught::by(&rung, FaultKind::Gravity, 1.25);
+        assert_eq!((missed.failing, missed.ratio, missed.sharpest.as_str()), (0, 0.0, ""));
+        let table = faults_csv(&[caught, missed]);
+        assert!(table.ends_with("r,friction,1.25,1,5,2.5,friction\nr,gravity,1.25,0,5,0,\n"), "{table}");
+    }
 
     #[test]
     fn digits_of_round_off_are_dropped() {

@@ -135,7 +135,8 @@ fn draw_panel(
 ) -> Result<(), PlotError> {
     let [x, y] = axes(what, curves);
     let top = if panel.title.is_empty() { 16.0 } else { 32.0 };
-    let margins = Margins { left: 74.0, right: 22.0, top, bottom: 46.0 };
+    let left = if what.panels.len() > 1 { 74.0 } else { 92.0 };
+    let margins = Margins { left, right: 22.0, top, bottom: 46.0 };
     let title = |k: usize, text| if titled[k] { text } else { "" };
     let frame = Frame::draw(area, &margins, (&x, title(1, what.x_title)), (&y, title(0, what.y_title)))?;
     let (left, right, upper, lower) = frame.bounds();

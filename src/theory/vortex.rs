@@ -66,13 +66,13 @@ impl Vortex {
     /// Acceleration that has to act on the point that was at `x0`, m/s2.
     pub fn acceleration(&self, x0: [f64; 2], t: f64) -> [f64; 2] {
         let (r, w) = (radius(x0), self.angular_frequency);
+        if (r - self.radius).abs() >= self.half_width {
+            return [0.0; 2];
+        }
         let [g, g1, g2] = self.profile(r);
         let (a, rate) = (self.angle * sin(w * t), self.angle * w * cos(w * t) * g);
         let (shear, slope) = (r * a * g1, a * (g1 + r * g2));
         let stiffness = self.elastic.shear() / self.density;
-        if r == 0.0 {
-            return [0.0; 2];
-        }
         let outwards = -r * rate * rate + stiffness * (slope * sin(shear) + 2.0 * (1.0 - cos(shear)) / r);
         let along = -r * a * w * w * g - stiffness * (slope * cos(shear) + 2.0 * sin(shear) / r);
         let (c, s) = (cos(self.bearing(x0, t)), sin(self.bearing(x0, t)));
