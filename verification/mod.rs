@@ -100,6 +100,7 @@ pub const RUNGS: &[Rung] = &[
     earth_pressure::RUNG,
     manufactured::RUNG,
     cantilever::RUNG,
+    contact::RUNG,
     wall_pressure::RUNG,
     collapse::RUNG,
     convergence::RUNG,

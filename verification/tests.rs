@@ -94,6 +94,7 @@ ladder!(
     earth_pressure,
     manufactured,
     cantilever,
+    contact,
     wall_pressure,
     collapse,
     convergence

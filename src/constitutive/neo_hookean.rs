@@ -4,7 +4,7 @@
 //! strains lose no digits. A step multiplies it by f = I + dt grad(v), the gradient of where the grid carries the points, which
 //! is exact: the stress depends on the deformation alone and not on the steps taken towards it.
 
-use super::{Increment, Stress};
+use super::{Increment, Law, PointState, Stress};
 
 /// Left Cauchy-Green tensor less the identity, in the plane; nothing happens across it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -89,9 +89,32 @@ impl NeoHookean {
         let ln = 0.5 * libm::log1p(less_one);
         0.5 * self.shear * ((b.xx + b.yy) - 2.0 * ln) + 0.5 * self.lame * ln * ln
     }
+}
 
-    /// P-wave modulus lambda + 2 mu at rest, Pa.
-    pub fn p_wave_modulus(&self) -> f64 {
+impl Law for NeoHookean {
+    const CARRIES_DEFORMATION: bool = true;
+
+    #[inline(always)]
+    fn update(&self, state: &mut PointState, increment: &Increment) -> f64 {
+        let before = state.finger;
+        state.finger = before.advanced(increment);
+        state.stress = self.stress(&state.finger);
+        // What is stored is the work, whatever the steps.
+        let stored = self.energy(&state.finger) - self.energy(&before);
+        2.0 * stored / (before.volume_ratio() + state.finger.volume_ratio())
+    }
+
+    #[inline(always)]
+    fn volume_ratio(&self, state: &PointState, _: f64, _: &Increment) -> f64 {
+        state.finger.volume_ratio()
+    }
+
+    fn stored_energy(&self, state: &PointState) -> f64 {
+        self.energy(&state.finger) / state.finger.volume_ratio()
+    }
+
+    /// lambda + 2 mu, at rest.
+    fn p_wave_modulus(&self) -> f64 {
         self.lame + 2.0 * self.shear
     }
 }

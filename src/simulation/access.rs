@@ -186,7 +186,7 @@ impl Simulation {
             s.momentum[1] += m * p.v[1];
             s.kinetic += 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
             s.gravitational += m * potential(&self.forces.gravity, &p.x);
-            s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state.stress);
+            s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         }
         s
     }

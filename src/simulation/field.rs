@@ -33,7 +33,7 @@ impl VelocityField {
         if self.bands.is_empty() {
             self.bands.push(Band::default());
         }
-        let mut points = Points::default();
+        let mut points = Points::for_law(&body.law);
         particles.iter().for_each(|p| points.push(p));
         self.bands[0].points.push(points);
         self.bodies.push(body);

@@ -231,7 +231,7 @@ impl Simulation {
         let body = &self.bodies[departed.body];
         let p = &departed.particle;
         let m = body.point_mass;
-        let elastic = body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state.stress);
+        let elastic = body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         self.mass -= m;
         let ledger = &mut self.ledger;
         ledger.departed_mass += m;

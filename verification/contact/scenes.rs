@@ -3,23 +3,28 @@
 use crate::body::Particle;
 use crate::boundary::Boundary;
 use crate::contact::rule::{ContactRule, GapRule, NormalRule};
-use crate::simulation::{Scene, Simulation};
+use crate::simulation::Scene;
 use crate::verification::Fault;
 use crate::verification::scene::{Brick, Material, scene};
 
 /// A brick of a material with its points.
 #[derive(Debug, Clone)]
 pub struct Part {
+    /// Where its points lie.
     pub brick: Brick,
+    /// What it is made of.
     pub material: Material,
+    /// Its points.
     pub points: Vec<Particle>,
 }
 
 impl Part {
+    /// A part at rest.
     pub fn new(brick: Brick, material: Material) -> Self {
         Self { brick, material, points: brick.points() }
     }
 
+    /// The same at a velocity (m/s).
     pub fn moving(mut self, v: [f64; 2]) -> Self {
         self.points.iter_mut().for_each(|p| p.v = v);
         self
@@ -42,15 +47,15 @@ pub fn several(parts: Vec<Part>, contacts: Vec<ContactRule>, boundaries: Vec<Bou
     scene
 }
 
-/// The choices of a contact, by name.
-pub const NORMALS: [(&str, NormalRule); 5] = [
+/// Ways to find normals, by name; the first body is the structure.
+pub const NORMALS: [(&str, NormalRule); 4] = [
     ("larger body", NormalRule::LargerBody),
     ("average", NormalRule::Average),
     ("regression", NormalRule::Regression),
-    ("nearest face of the first", NormalRule::NearestFace(0)),
-    ("nearest face of the second", NormalRule::NearestFace(1)),
+    ("nearest face", NormalRule::NearestFace(0)),
 ];
 
+/// Ways to find gaps, by name.
 pub const GAPS: [(&str, GapRule); 4] = [
     ("approach", GapRule::Approach),
     ("positions", GapRule::POSITIONS),
@@ -58,7 +63,12 @@ pub const GAPS: [(&str, GapRule); 4] = [
     ("extents", GapRule::Extents),
 ];
 
-/// Momentum, energies of a body.
-pub fn of_body(sim: &Simulation, body: usize) -> crate::ledger::Stock {
-    sim.stock_of(|b| b == body)
+/// Contact of the first two bodies in one of the ways above.
+pub fn rule(friction: f64, normal: NormalRule, gap: GapRule) -> ContactRule {
+    ContactRule { bodies: [0, 1], friction, normal, gap }
+}
+
+/// Contact of the first two bodies in the way that a user gets.
+pub fn usual(friction: f64) -> ContactRule {
+    ContactRule::with_structure(0, 1, friction)
 }
