@@ -7,7 +7,7 @@ use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
 use crate::constitutive::Law;
-use crate::contact::rule::ContactTally;
+use crate::contact::rule::{ContactRule, ContactTally};
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::timestep::TimeStep;
 
@@ -133,6 +133,11 @@ impl Simulation {
     /// What each boundary did in the last step.
     pub fn step_tallies(&self) -> &[Tally] {
         &self.step_tallies
+    }
+
+    /// Contacts of bodies.
+    pub fn contacts(&self) -> impl Iterator<Item = &ContactRule> {
+        self.coupling.rules()
     }
 
     /// What the two bodies of each contact did to each other in the last step.

@@ -97,6 +97,11 @@ impl Coupling {
         self.interfaces.is_empty()
     }
 
+    /// The rules.
+    pub fn rules(&self) -> impl Iterator<Item = &ContactRule> {
+        self.interfaces.iter().map(|i| &i.rule)
+    }
+
     /// What the two bodies of each rule did to each other in the last step.
     pub fn tallies(&self) -> impl Iterator<Item = &ContactTally> {
         self.interfaces.iter().map(|i| &i.tally)

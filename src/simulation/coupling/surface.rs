@@ -31,7 +31,7 @@ struct View {
 /// The contact of two bodies.
 #[derive(Debug, Clone)]
 pub(super) struct Interface {
-    rule: ContactRule,
+    pub rule: ContactRule,
     /// What the bodies did to each other in the last step.
     pub tally: ContactTally,
     fields: [usize; 2],
