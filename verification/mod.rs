@@ -17,6 +17,7 @@ pub mod exactness;
 pub mod fault;
 pub mod figures;
 pub mod manufactured;
+pub mod neo_hookean;
 pub mod report;
 pub mod scene;
 pub mod self_weight;
@@ -100,6 +101,7 @@ pub const RUNGS: &[Rung] = &[
     earth_pressure::RUNG,
     manufactured::RUNG,
     cantilever::RUNG,
+    neo_hookean::RUNG,
     contact::RUNG,
     wall_pressure::RUNG,
     collapse::RUNG,

@@ -94,6 +94,7 @@ ladder!(
     earth_pressure,
     manufactured,
     cantilever,
+    neo_hookean,
     contact,
     wall_pressure,
     collapse,
