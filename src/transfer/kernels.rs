@@ -25,14 +25,13 @@ struct Stencils {
 }
 
 impl Stencils {
+    /// Made once a loop, since filling it with zeros costs as much as a tenth of the work on a block.
+    const EMPTY: Self =
+        Self { first: [[0; LANES]; STENCIL], key: [0; LANES], w: [[ZERO; STENCIL]; 2], g: [[ZERO; STENCIL]; 2] };
+
     #[inline(always)]
-    fn new<S: Shape1d>(shape: S, map: &NodeMap, block: &Block) -> Self {
-        let mut s = Stencils {
-            first: [[0; LANES]; STENCIL],
-            key: [0; LANES],
-            w: [[ZERO; STENCIL]; 2],
-            g: [[ZERO; STENCIL]; 2],
-        };
+    fn evaluate<S: Shape1d>(&mut self, shape: S, map: &NodeMap, block: &Block) {
+        let s = self;
         let mut node = [[0; LANES]; 2];
         for d in 0..2 {
             for l in 0..LANES {
@@ -55,7 +54,6 @@ impl Stencils {
                 s.first[i][l] = first[i];
             }
         }
-        s
     }
 }
 
@@ -72,28 +70,24 @@ fn at_mut<const N: usize>(field: &mut [f64], first: usize) -> &mut [f64; N] {
 
 /// Four numbers of each of eight points, number by number.
 #[inline(always)]
-fn columns<U: Unit>(rows: [U::Pack4; LANES]) -> [Lane; 4] {
-    let mut lanes = [ZERO; 4];
+fn columns<U: Unit>(rows: [U::Pack4; LANES], lanes: &mut [Lane; 4]) {
     let columns = U::Pack8::columns(rows);
     for k in 0..4 {
         columns[k].store(&mut lanes[k]);
     }
-    lanes
 }
 
 /// Eight numbers of each of eight points, point by point.
 #[inline(always)]
-fn transposed<U: Unit>(lanes: &[Lane; 8]) -> [[f64; 8]; LANES] {
+fn transpose<U: Unit>(lanes: &[Lane; 8], points: &mut [[f64; 8]; LANES]) {
     let mut packs = [U::Pack8::splat(0.0); LANES];
     for k in 0..LANES {
         packs[k] = U::Pack8::load(&lanes[k]);
     }
     let packs = U::Pack8::transpose(packs);
-    let mut points = [[0.0; 8]; LANES];
     for l in 0..LANES {
         packs[l].store(&mut points[l]);
     }
-    points
 }
 
 /// Particle to grid: mass and momentum (`INERTIA`), internal force (`FORCE`).
@@ -106,13 +100,15 @@ pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
     sums: &mut [NodeSum],
 ) {
     let m = if INERTIA { constants.mass } else { 0.0 };
+    let mut stencil = Stencils::EMPTY;
+    // In the layout of NodeSum: gradients along x act on the fifth and sixth number, along y on the last two.
+    let mut carried = [ZERO; 8];
+    let mut by_point = [[0.0; 8]; LANES];
     for (number, (block, n)) in points.blocks().enumerate() {
         if let Some(soon) = points.block(number + AHEAD) {
             U::prefetch(soon);
         }
-        let stencil = Stencils::new(shape, map, block);
-        // In the layout of NodeSum: gradients along x act on the fifth and sixth number, along y on the last two.
-        let mut carried = [ZERO; 8];
+        stencil.evaluate(shape, map, block);
         for l in 0..LANES {
             let volume = constants.volume * block.volume_ratio[l];
             if INERTIA {
@@ -129,14 +125,14 @@ pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
                 carried[7][l] = -volume * block.stress[1][l];
             }
         }
-        let carried = transposed::<U>(&carried);
+        transpose::<U>(&carried, &mut by_point);
         let mut l = 0;
         while l < n {
             // Sorted points share their stencil with the next few; their sum stays in registers.
             let start = l;
             let mut new = [[U::Pack8::splat(0.0); STENCIL]; STENCIL];
             while l < n && stencil.key[l] == stencil.key[start] {
-                let carried = U::Pack8::load(&carried[l]);
+                let carried = U::Pack8::load(&by_point[l]);
                 let mut along_y = [carried; STENCIL];
                 for j in 0..STENCIL {
                     let (w, g) = (stencil.w[1][j][l], stencil.g[1][j][l]);
@@ -171,8 +167,9 @@ pub fn scatter_field<S: Shape1d>(
     points: &Points,
     force: &mut [[f64; 2]],
 ) {
+    let mut stencil = Stencils::EMPTY;
     for (block, n) in points.blocks() {
-        let stencil = Stencils::new(shape, map, block);
+        stencil.evaluate(shape, map, block);
         for l in 0..n {
             let f = acceleration(&block.get(l)).map(|a| mass * a);
             for i in 0..STENCIL {
@@ -199,8 +196,9 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
 ) -> BandSums {
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
+    let (mut stencil, mut seen) = (Stencils::EMPTY, [ZERO; 4]);
     for (block, n) in points.blocks_mut() {
-        let stencil = Stencils::new(shape, map, block);
+        stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
             let (mut two, mut third) = (U::Pack8::splat(0.0), U::Pack4::splat(0.0));
@@ -217,7 +215,7 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
             rows[l] = rows[l].add(U::Pack4::splat(w[1][l]).mul(second));
             rows[l] = rows[l].add(U::Pack4::splat(w[2][l]).mul(third));
         }
-        let seen = columns::<U>(rows);
+        columns::<U>(rows, &mut seen);
         for d in 0..2 {
             for l in 0..LANES {
                 let flip = block.v[d][l] + seen[d + 2][l];
@@ -280,8 +278,9 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
 ) -> BandSums {
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
+    let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
     for (block, n) in points.blocks_mut() {
-        let stencil = Stencils::new(shape, map, block);
+        stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
             // Weighted and differentiated along x; both velocities of three nodes.
@@ -297,7 +296,7 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
             rows[l] = U::Pack4::fold(along_x[0].add(along_x[1]), along_y[0].add(along_y[1]));
         }
         // dv_x/dx, dv_y/dx, dv_x/dy, dv_y/dy
-        let gradient = columns::<U>(rows);
+        columns::<U>(rows, &mut gradient);
         for l in 0..LANES {
             let increment = Increment {
                 xx: update.dt * gradient[0][l],
