@@ -102,3 +102,49 @@ impl ActiveGrid {
             + self.strain_velocity.capacity() * size_of::<[f64; 2]>()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns at x = 10, 12 and 14 m with 3, 0 and 2 nodes, of which the lowest lie at y = 21 and 17 m.
+    fn grid() -> ActiveGrid {
+        let column = |start, row, rows| Column { start, row, rows };
+        let mut grid = ActiveGrid {
+            corner: [10.0, 17.0],
+            spacing: 2.0,
+            inverse_spacing: 0.5,
+            columns: vec![column(0, 2, 3), column(3, 5, 0), column(3, 0, 2)],
+            mass: vec![1.0; 9],
+            motion: vec![[1.0; 4]; 9],
+            strain_velocity: vec![[1.0; 2]; 9],
+            row_zero: vec![1; 9],
+            ..ActiveGrid::default()
+        };
+        grid.allocate();
+        grid
+    }
+
+    #[test]
+    fn nodes_lie_where_the_lattice_has_them() {
+        let lattice = Lattice { spacing: 0.5, origin: [10.0, -3.0] };
+        assert_eq!(lattice.position(4, -2), [12.0, -4.0]);
+        let nodes: Vec<_> = grid().nodes().collect();
+        let expected = [[10.0, 21.0], [10.0, 23.0], [10.0, 25.0], [14.0, 17.0], [14.0, 19.0]];
+        assert_eq!(nodes, expected.into_iter().enumerate().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn arrays_have_one_cleared_entry_for_each_node() {
+        let grid = grid();
+        assert_eq!((grid.len(), grid.is_empty()), (5, false));
+        assert_eq!((&grid.mass, &grid.motion), (&vec![0.0; 5], &vec![[0.0; 4]; 5]));
+        assert_eq!(grid.strain_velocity, [[0.0; 2]; 5]);
+        // The index that row 0 of each column would have.
+        assert_eq!(grid.row_zero, [-2, -2, 3]);
+        assert_eq!([0, 1, 2, 3].map(|c| grid.column_start(c)), [0, 3, 3, 5]);
+        let mut none = ActiveGrid::default();
+        none.allocate();
+        assert_eq!((none.len(), none.is_empty(), none.column_start(0)), (0, true, 0));
+    }
+}

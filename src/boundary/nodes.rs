@@ -220,3 +220,7 @@ impl Hold {
         free <= 0.0 || self.along >= free
     }
 }
+
+#[cfg(test)]
+#[path = "nodes_tests.rs"]
+mod tests;
