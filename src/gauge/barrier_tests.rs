@@ -129,6 +129,16 @@ fn samples_are_means_and_largest_values_of_their_interval() {
 }
 
 #[test]
+fn a_wall_that_is_not_reached_feels_nothing() {
+    let mut sim = impact(View::ALL[0], 3.0 * H, [0.0, 0.0], Friction::Rough);
+    let mut gauge = BarrierGauge::new(&sim, 0);
+    sim.step().unwrap();
+    gauge.after_step(&sim);
+    assert_eq!((gauge.peak_force(), gauge.peak_moment()), (Peak::default(), Peak::default()));
+    assert_eq!(gauge.sample(), ForceSample { duration: sim.time(), ..ForceSample::default() });
+}
+
+#[test]
 fn moment_turns_the_wall_over_by_the_lever_arm_of_the_block() {
     for view in View::ALL {
         let mut sim = impact(view, 0.0, [2.0, 0.0], Friction::Smooth);
@@ -187,6 +197,7 @@ fn planes_have_no_profile_and_each_boundary_its_own_gauge() {
     assert!(close(gauges[0].total_impulse()[0], after[1] - before[1]));
     assert!(close(gauges[1].total_impulse()[0], after[0] - before[0]));
     assert!(gauges[0].profile(THICKNESS).is_empty());
+    assert_eq!(gauges.each_ref().map(BarrierGauge::boundary), [0, 1]);
     let rows = gauges[1].profile(THICKNESS);
     let sum: f64 = rows.iter().enumerate().map(|(k, r)| r.1 * if k % 4 == 0 { 0.5 * H } else { H }).sum();
     assert!(close(sum * THICKNESS, gauges[1].sample().normal));

@@ -85,6 +85,10 @@ fn depth_of_the_front_is_that_of_the_fullest_strip() {
     assert!(close(deepest(&[(0.0, &[1.0, 1.0]), (0.05, &[0.9, 1.2, 3.0]), (0.09, &[1.0])]), 3.6));
     assert!(close(deepest(&[(0.0, &[1.0, 0.5]), (0.03, &[1.0]), (0.05, &[1.0, 1.0])]), 2.5));
     assert!(close(deepest(&[(0.0, &[1.0]), (0.119, &[1.0, 1.0]), (0.121, &[1.0; 9])]), 2.0));
+    // The far end of the last strip is open.
+    let points = [strip(0.0, &[1.0]), strip(0.125, &[1.0])].concat();
+    let sim = simulation(0.0625, [points, vec![]], vec![]);
+    assert!(close(front(&sim, &mut Vec::new()).depth * 0.125 * THICKNESS, BODIES[0].1));
     // What is ahead of the front has no depth.
     let mut points = strip(0.0, &[1.0; 200]);
     points.extend(strip(-1.0, &[1.0, 1.0]));
@@ -105,12 +109,12 @@ fn stations_measure_volume_and_mean_velocity() {
         point(1.26, 0.3, [70.0, 9.0], 1.0),
         point(0.74, 0.3, [70.0, 9.0], 1.0),
     ];
-    let heavy = vec![point(1.0, 0.1, [4.0, 0.0], 1.1)];
+    let heavy = vec![point(1.0, 0.1, [7.0, 0.0], 1.1)];
     let sim = simulation(0.25, [light, heavy], vec![]);
     let read = stations(&sim, &[1.0, 10.0]);
     let volume = BODIES[0].1 * (1.0 + 1.5) + BODIES[1].1 * 1.1;
     assert!(close(read[0].0, volume / (0.5 * THICKNESS)), "{read:?}");
-    assert!(close(read[0].1, (1.0 + 2.0 + 2.0 * 4.0) / 4.0), "{read:?}");
+    assert!(close(read[0].1, (1.0 + 2.0 + 2.0 * 7.0) / 4.0), "{read:?}");
     assert_eq!(read[1], (0.0, 0.0));
 }
 
