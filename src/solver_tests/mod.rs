@@ -52,8 +52,8 @@ fn moves_with(sim: &Simulation, v: [f64; 2]) -> bool {
 fn books_balance(sim: &Simulation) -> f64 {
     let (now, then, ledger): (Stock, Stock, _) = (sim.stock(), *sim.opening(), sim.ledger());
     let impulse = ledger.impulse();
-    for d in 0..2 {
-        let residual = now.momentum[d] - then.momentum[d] - impulse[d];
+    for (d, impulse) in impulse.into_iter().enumerate() {
+        let residual = now.momentum[d] - then.momentum[d] - impulse;
         assert!(residual.abs() <= 1e-12 * ledger.impulse_scale.max(then.mass), "momentum residual {residual}");
     }
     assert!(close(now.mass + ledger.departed_mass, then.mass) && close(sim.mass(), now.mass));
