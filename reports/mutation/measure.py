@@ -43,9 +43,10 @@ def source(file):
 def mutants():
     """All mutants as {name: key}; a key does not change when lines move: file, mutation, number among its like."""
     listing = subprocess.run(["cargo", "mutants", "--list", "--json"], cwd=ROOT, check=True, capture_output=True)
+    position = lambda m: (m["file"], m["span"]["start"]["line"], m["span"]["start"]["column"], m["name"])
     seen = Counter()
     keys = {}
-    for m in sorted(json.loads(listing.stdout), key=lambda m: (m["file"], *m["span"]["start"].values(), m["name"])):
+    for m in sorted(json.loads(listing.stdout), key=position):
         mutation = m["name"].split(": ", 1)[1]
         seen[m["file"], mutation] += 1
         keys[m["name"]] = (m["file"], mutation, seen[m["file"], mutation])

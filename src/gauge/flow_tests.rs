@@ -157,8 +157,11 @@ fn penetration_finds_the_deepest_point_and_skips_gates_that_are_gone() {
     let heavy = vec![point(0.0, -0.125, [0.0; 2], 1.0)];
     let sim = simulation(0.1, [points.clone(), heavy.clone()], vec![plane(-1.0), plane(0.0), plane(-0.0625)]);
     assert_eq!(penetration(&sim), (0.25, 1));
-    let sim = simulation(0.1, [points.clone(), heavy.clone()], vec![plane(-1.0)]);
-    assert_eq!(penetration(&sim), (0.0, 0));
+    for above in [-1.0, -0.25] {
+        // On the surface is not inside.
+        let sim = simulation(0.1, [points.clone(), heavy.clone()], vec![plane(-2.0), plane(above)]);
+        assert_eq!(penetration(&sim), (0.0, 0));
+    }
     let mut gate = plane(0.0).gate(Opening::Vanish);
     gate.release();
     let sim = simulation(0.1, [points, heavy], vec![gate, plane(-0.0625)]);
@@ -197,17 +200,17 @@ fn window_speeds_are_mean_and_ninety_fifth_percentile() {
 
 #[test]
 fn field_gives_the_mean_velocity_and_fill_of_each_cell() {
-    // Cells (-1, 0), (0, -1), (0, 0); points of both bodies in the last.
+    // Cells (-1, 2), (2, -1), (2, 2); points of both bodies in the last.
     let light =
-        vec![point(0.1, 0.1, [3.0, 0.0], 1.0), point(-0.1, 0.2, [5.0, 6.0], 1.0), point(0.2, -0.2, [7.0, 8.0], 9.0)];
-    let heavy = vec![point(0.2, 0.2, [0.0, 3.0], 1.2)];
+        vec![point(0.6, 0.6, [3.0, 0.0], 1.0), point(-0.1, 0.7, [5.0, 6.0], 1.0), point(0.7, -0.2, [7.0, 8.0], 9.0)];
+    let heavy = vec![point(0.7, 0.7, [0.0, 3.0], 1.2)];
     let sim = simulation(0.25, [light, heavy], vec![]);
     let field = velocity_field(&sim);
     let cell_volume = 0.0625 * THICKNESS;
     let expected = [
-        ([-0.125, 0.125], BODIES[0].1, [5.0, 6.0]),
-        ([0.125, -0.125], 1.5 * BODIES[0].1, [7.0, 8.0]),
-        ([0.125, 0.125], BODIES[0].1 + 1.2 * BODIES[1].1, [1.0, 2.0]),
+        ([-0.125, 0.625], BODIES[0].1, [5.0, 6.0]),
+        ([0.625, -0.125], 1.5 * BODIES[0].1, [7.0, 8.0]),
+        ([0.625, 0.625], BODIES[0].1 + 1.2 * BODIES[1].1, [1.0, 2.0]),
     ];
     assert_eq!(field.len(), 3);
     for (cell, (x, volume, v)) in field.iter().zip(expected) {
