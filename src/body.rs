@@ -167,6 +167,12 @@ impl Points {
         }
     }
 
+    /// A block, if there are so many.
+    #[inline(always)]
+    pub fn block(&self, number: usize) -> Option<&Block> {
+        self.blocks.get(number)
+    }
+
     /// The blocks with the number of real points in each.
     #[inline(always)]
     pub fn blocks(&self) -> impl Iterator<Item = (&Block, usize)> {

@@ -171,6 +171,25 @@ impl Check {
         }
     }
 
+    /// How much of what is allowed is used up: the distance from what is expected, or from the middle of a span, over the
+    /// farthest that still passes; for an upper bound the value over it, for a lower one 1 and the share by which it is missed. At
+    /// most 1 where the check passes, NaN for NaN.
+    pub fn share_used(&self) -> f64 {
+        let (measured, allowed) = (self.measured, self.allowed());
+        let over = |x: f64, y: f64| if x == 0.0 { 0.0 } else { x / y };
+        if measured.is_nan() {
+            return f64::NAN;
+        }
+        match self.expected {
+            Expected::Value(v) => over((measured - v).abs(), allowed),
+            Expected::Within(low, high) => over((measured - 0.5 * (low + high)).abs(), 0.5 * (high - low) + allowed),
+            Expected::AtMost(high) if high + allowed > 0.0 => over(measured.max(0.0), high + allowed),
+            Expected::AtLeast(low) if low - allowed > 0.0 => (2.0 - measured / (low - allowed)).max(0.0),
+            // A bound at zero or beyond has no scale of its own.
+            _ => over(self.error(), allowed),
+        }
+    }
+
     /// Why the check fails, or nothing if it passes.
     pub fn objection(&self) -> Option<String> {
         let (error, allowed) = (self.error(), self.allowed());
@@ -200,7 +219,7 @@ pub struct Verdict {
     pub name: String,
     /// Its checks.
     pub checks: Vec<Check>,
-    /// Tables and figures, as paths relative to the reports.
+    /// Paths of tables and figures.
     pub artefacts: Vec<String>,
 }
 
@@ -215,6 +234,11 @@ impl Verdict {
         self.checks.iter().filter(|c| !c.passes())
     }
 
+    /// The verdict without the checks that pass: what one needs to see when it fails.
+    pub fn failing(&self) -> Failing<'_> {
+        Failing(self)
+    }
+
     /// One line: passed of total.
     pub fn summary(&self) -> String {
         let passed = self.checks.len() - self.failures().count();
@@ -226,12 +250,29 @@ impl Verdict {
     }
 }
 
+/// A verdict of which only the failing checks are shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Failing<'a>(&'a Verdict);
+
+impl fmt::Display for Failing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.table(f, |c| !c.passes())
+    }
+}
+
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.table(f, |_| true)
+    }
+}
+
+impl Verdict {
+    /// The summary, the checks that are `shown` as a table, why they fail, and where to look.
+    fn table(&self, f: &mut fmt::Formatter<'_>, shown: fn(&Check) -> bool) -> fmt::Result {
         writeln!(f, "{}", self.summary())?;
         let head = ["", "quantity", "measured", "expected", "error", "tolerance", "unit", "kind", "source"];
         let mut rows = vec![head.map(String::from)];
-        rows.extend(self.checks.iter().map(|c| {
+        rows.extend(self.checks.iter().filter(|c| shown(c)).map(|c| {
             [
                 if c.passes() { "ok" } else { "FAIL" }.to_string(),
                 c.what.clone(),
@@ -306,6 +347,44 @@ mod tests {
         assert!(sound(1.5, Expected::Within(1.0, 2.0), none).passes());
         assert!(!sound(2.5, Expected::Within(1.0, 2.0), none).passes());
         assert_eq!(sound(2.5, Expected::Within(1.0, 2.0), none).error(), 0.5);
+    }
+
+    #[test]
+    fn the_share_used_is_one_where_checks_begin_to_fail() {
+        let none = Tolerance::Absolute(0.0);
+        for (measured, expected, tolerance, share) in [
+            (100.5, Expected::Value(100.0), Tolerance::Relative(0.01), 0.5),
+            (97.0, Expected::Value(100.0), Tolerance::Relative(0.01), 3.0),
+            (0.5, Expected::AtMost(2.0), none, 0.25),
+            (-3.0, Expected::AtMost(2.0), none, 0.0),
+            (6.0, Expected::AtMost(2.0), Tolerance::Absolute(1.0), 2.0),
+            (0.75, Expected::AtLeast(1.5), none, 1.5),
+            (-1.5, Expected::AtLeast(1.5), none, 3.0),
+            (2.5, Expected::Within(1.0, 3.0), none, 0.5),
+            (5.0, Expected::Within(1.0, 3.0), Tolerance::Absolute(1.0), 1.5),
+            (-1.0, Expected::AtLeast(0.0), none, f64::INFINITY),
+            (1.0, Expected::AtLeast(0.0), none, 0.0),
+            (3.0, Expected::Value(3.0), none, 0.0),
+        ] {
+            let check = sound(measured, expected, tolerance);
+            assert_eq!(check.share_used(), share, "{measured} against {expected}");
+            assert_eq!(check.passes(), share <= 1.0, "{measured} against {expected}");
+        }
+        for expected in [Expected::Value(1.0), Expected::AtMost(1.0), Expected::AtLeast(1.0), Expected::AtLeast(0.0)] {
+            assert!(sound(f64::NAN, expected, none).share_used().is_nan(), "{expected}");
+        }
+    }
+
+    #[test]
+    fn the_table_of_failures_leaves_out_what_passes() {
+        let checks = vec![
+            sound(1.0, Expected::Value(1.0), Tolerance::Absolute(0.1)),
+            Check { what: "height".into(), ..sound(12.5, Expected::Value(1.0), Tolerance::Absolute(0.1)) },
+        ];
+        let verdict = Verdict { name: "fall".into(), checks, artefacts: vec!["out/fall.svg".into()] };
+        let text = verdict.failing().to_string();
+        assert!(text.starts_with("fall: FAILS, 1 of 2 checks pass"));
+        assert!(text.contains("height") && !text.contains("speed") && text.contains("see out/fall.svg"), "{text}");
     }
 
     #[test]

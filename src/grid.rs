@@ -1,8 +1,8 @@
 //! The active part of the uniform background grid.
 //!
-//! Nodes are stored column by column (a column is a line of nodes along y), and only the rows that material can reach. Memory
-//! and work follow the material, wherever it is; the grid itself has no bounds. The three nodes of a stencil column lie side by
-//! side in memory.
+//! Nodes are numbered column by column (a column is a line of nodes along y), and only in the rows that material can reach.
+//! Memory and work follow the material, wherever it is; the grid itself has no bounds. The three nodes of a stencil column have
+//! successive numbers. The nodal fields themselves are kept by the [`crate::band`]s.
 
 /// Cell size and where node (0, 0) lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Column {
     pub rows: u32,
 }
 
-/// Nodes that material can reach until the next sort, and what the step computes on them.
+/// Nodes that material can reach until the next sort.
 #[derive(Debug, Clone, Default)]
 pub struct ActiveGrid {
     /// Global index of the first column and of row 0.
@@ -46,36 +46,23 @@ pub struct ActiveGrid {
     pub columns: Vec<Column>,
     /// For each column, the index that row 0 would have: a node's index less its row.
     pub row_zero: Vec<i32>,
-    /// Nodal mass, kg.
-    pub mass: Vec<f64>,
-    /// New velocity and its change in this step: v_x, v_y, dv_x, dv_y in m/s.
-    pub motion: Vec<[f64; 4]>,
-    /// Velocity whose gradient strains the material, m/s.
-    pub strain_velocity: Vec<[f64; 2]>,
 }
 
 impl ActiveGrid {
     /// Number of active nodes.
     pub fn len(&self) -> usize {
-        self.mass.len()
+        self.columns.last().map_or(0, |c| (c.start + c.rows) as usize)
     }
 
     /// Whether no node is active.
     pub fn is_empty(&self) -> bool {
-        self.mass.is_empty()
+        self.len() == 0
     }
 
-    /// Sets the nodal arrays to the size of the columns.
-    pub fn allocate(&mut self) {
+    /// Follows a change of the columns.
+    pub fn index_columns(&mut self) {
         self.row_zero.clear();
         self.row_zero.extend(self.columns.iter().map(|c| c.start as i32 - c.row));
-        let nodes = self.columns.last().map_or(0, |c| (c.start + c.rows) as usize);
-        self.mass.clear();
-        self.mass.resize(nodes, 0.0);
-        self.motion.clear();
-        self.motion.resize(nodes, [0.0; 4]);
-        self.strain_velocity.clear();
-        self.strain_velocity.resize(nodes, [0.0; 2]);
     }
 
     /// First node index of column `c`, or the number of nodes past the last column.
@@ -94,12 +81,9 @@ impl ActiveGrid {
         })
     }
 
-    /// Bytes held by the nodal arrays.
+    /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.columns.capacity() * size_of::<Column>()
-            + self.mass.capacity() * size_of::<f64>()
-            + self.motion.capacity() * size_of::<[f64; 4]>()
-            + self.strain_velocity.capacity() * size_of::<[f64; 2]>()
+        self.columns.capacity() * size_of::<Column>() + self.row_zero.capacity() * size_of::<i32>()
     }
 }
 

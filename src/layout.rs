@@ -1,12 +1,12 @@
 //! Keeps material points sorted by cell, in bands of grid columns, and says which nodes are active.
 //!
-//! A band owns the points whose stencil starts in its columns, and private accumulators for every node they can reach. Bands
-//! scatter side by side without locks; their overlaps are added in the order of the bands. The partition depends on the points
-//! alone and never on the number of threads, so neither do the sums.
+//! A band owns the points whose stencil starts in its columns, see [`crate::band`]. The partition depends on the points alone and
+//! never on the number of threads, so neither do the sums.
 //!
 //! A sort stays valid until some point may have moved by more than one cell; until then a stencil starts at most one column or
 //! row beside where it was, and accumulators and active nodes allow for that.
 
+use crate::band::{Band, BandSums};
 use crate::body::{Body, Particle, Points};
 use crate::grid::{ActiveGrid, Column, Lattice};
 use crate::lanes::floor_to_int;
@@ -17,41 +17,7 @@ const DRIFT: usize = 1;
 /// Fewest columns of a band: the accumulators of a band reach no further than the next band.
 const MIN_COLUMNS: usize = STENCIL + 2 * DRIFT;
 /// Material points that make a band worth a task of its own.
-const BAND_POINTS: usize = 768;
-
-/// Points of neighbouring columns, and what they add to the grid.
-#[derive(Debug, Clone, Default)]
-pub struct Band {
-    /// Points of each body.
-    pub points: Vec<Points>,
-    /// First node that the band can reach.
-    pub first_node: usize,
-    /// Mass, momentum x and y, side-wall friction capacity (kg, kg m/s, N) of each node within reach.
-    pub inertia: Vec<[f64; 4]>,
-    /// Internal force x and y (N), or remapped momentum.
-    pub force: Vec<[f64; 2]>,
-    /// Force of a body-force field x and y (N); empty unless there is one.
-    pub field_force: Vec<[f64; 2]>,
-    /// Sums over the band's points in this step.
-    pub sums: BandSums,
-}
-
-/// Sums over the points of a band in one step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct BandSums {
-    /// Kinetic energy, J. Not finite when any velocity is not.
-    pub kinetic: f64,
-    /// Largest speed component, m/s.
-    pub max_speed: f64,
-    /// Largest displacement component of the step, m.
-    pub max_displacement: f64,
-    /// Smallest volume ratio.
-    pub min_volume_ratio: f64,
-    /// Work of the internal stress, J.
-    pub internal_work: f64,
-    /// Kinetic energy taken by the PIC share of the velocity update, J.
-    pub pic_loss: f64,
-}
+const BAND_POINTS: usize = 256;
 
 /// A particle that left the domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -152,7 +118,7 @@ impl Sorter {
         grid.inverse_spacing = 1.0 / lattice.spacing;
         self.base_rows.clear();
         if low[0] > high[0] {
-            grid.allocate();
+            grid.index_columns();
             return;
         }
         let drift = DRIFT as i32;
@@ -181,7 +147,7 @@ impl Sorter {
             grid.columns.push(Column { start, row: if rows > 0 { low } else { 0 }, rows });
             start += rows;
         }
-        grid.allocate();
+        grid.index_columns();
     }
 
     /// Counting sort by (column, row) of the stencil's first node, then a cut into bands.
@@ -221,11 +187,8 @@ impl Sorter {
             band.first_node = grid.column_start(cut[0]);
             // Columns cut[0] .. cut[1] + reach: base column c of the sort is column c + DRIFT of the grid.
             let reach = grid.column_start(cut[1] + STENCIL - 1 + 2 * DRIFT) - band.first_node;
-            band.inertia.clear();
-            band.inertia.resize(reach, [0.0; 4]);
-            band.force.clear();
-            band.force.resize(reach, [0.0; 2]);
-            band.field_force.clear();
+            let owned = if cut[1] < base_columns { grid.column_start(cut[1]) - band.first_node } else { reach };
+            band.nodes.resize(owned, reach);
             band.sums = BandSums::default();
         }
         for body in 0..bodies {

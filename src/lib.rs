@@ -25,6 +25,7 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod band;
 pub mod body;
 pub mod boundary;
 pub mod case;
@@ -46,5 +47,6 @@ mod solver_tests;
 pub mod theory;
 pub mod timestep;
 pub mod transfer;
+pub mod vector;
 #[path = "../verification/mod.rs"]
 pub mod verification;

@@ -5,7 +5,7 @@
 //! which is checked, too. The free bar has Poisson's ratio zero and
 //! runs at sqrt(E/rho); the confined one lies between smooth walls and runs at sqrt(M/rho), 16 % faster at nu = 0.3.
 
-use super::report::table_csv;
+use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, THICKNESS, points_by_number, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
 use crate::boundary::{Boundary, Friction};
@@ -20,6 +20,7 @@ pub const RUNG: Rung = Rung {
     title: "Speed of a pulse in a free and a confined bar, three grids; a bar that strikes a rigid wall",
     run,
     covers: &[(FaultKind::Modulus, 1.03), (FaultKind::Density, 1.03), (FaultKind::ContactForce, 1.03)],
+    under_fault: "all",
 };
 
 const FREE: Material = Material::new(1e6, 0.0, 1500.0);
@@ -104,31 +105,40 @@ struct Bar {
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();
-    let mut rows = Vec::new();
+    let (mut rows, mut lags) = (Vec::new(), Vec::new());
     let free = elastic::bar_speed(&FREE.elastic, FREE.density);
     let confined = elastic::confined_speed(&CONFINED.elastic, CONFINED.density);
     for bar in [
         Bar { name: "free bar", material: FREE, speed: free, confined: false, law: "sqrt(E/rho)" },
         Bar { name: "confined bar", material: CONFINED, speed: confined, confined: true, law: "sqrt(M/rho)" },
     ] {
-        pulse(&bar, fault, &mut outcome, &mut rows)?;
+        pulse(&bar, fault, &mut outcome, &mut rows, &mut lags)?;
     }
-    let header = ["confined", "cells", "station_m", "arrival_s", "speed_m_s", "speed_on_grid_m_s", "speed_exact_m_s"];
-    outcome.tables.push(("celerity_arrivals".into(), table_csv(&header, rows)));
+    let names: [(&str, &[&str]); 1] = [("bar", &["free bar", "confined bar"])];
+    outcome.tables.push(("celerity_lag".into(), named_csv(&["bar", "cells", "lag", "lag_exact"], &names, lags)));
+    let header = ["bar", "cells", "station_m", "arrival_s", "speed_m_s", "speed_on_grid_m_s", "speed_exact_m_s"];
+    outcome.tables.push(("celerity_arrivals".into(), named_csv(&header, &names, rows)));
     impact(fault, &mut outcome)?;
     Ok(outcome)
 }
 
 /// Speed between the stations on three grids.
-fn pulse(bar: &Bar, fault: &Fault, outcome: &mut Outcome, rows: &mut Vec<Vec<f64>>) -> Result<(), RungFailure> {
+fn pulse(
+    bar: &Bar,
+    fault: &Fault,
+    outcome: &mut Outcome,
+    rows: &mut Vec<Vec<f64>>,
+    lags: &mut Vec<Vec<f64>>,
+) -> Result<(), RungFailure> {
     let Bar { name, speed, .. } = *bar;
     let mut errors = Vec::new();
     for cells in GRIDS {
         let passed = arrivals(bar, cells, fault)?;
         let between = |a: usize, b: usize| (passed[b][0] - passed[a][0]) / (passed[b][1] - passed[a][1]);
         let lag = dispersion::pulse_speed_ratio(WIDTH * cells as f64 / LENGTH, COURANT);
+        let kind = f64::from(u8::from(bar.confined));
+        lags.push(vec![kind, cells as f64, 1.0 - between(0, 3) / speed, 1.0 - lag]);
         for k in 1..4 {
-            let kind = f64::from(u8::from(bar.confined));
             rows.push(vec![kind, cells as f64, passed[k][0], passed[k][1], between(k - 1, k), lag * speed, speed]);
             if cells == GRIDS[1] {
                 outcome.check(

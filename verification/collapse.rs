@@ -34,6 +34,7 @@ pub const RUNG: Rung = Rung {
     title: "Columns of five aspect ratios collapse: run-out and height against two laboratories, ledgers",
     run,
     covers: &[(FaultKind::Gravity, 1.03), (FaultKind::Density, 1.03), (FaultKind::ContactForce, 1.03)],
+    under_fault: "the column with a = 0.5",
 };
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);

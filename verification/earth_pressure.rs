@@ -4,7 +4,7 @@
 //! coefficient at rest then tells the cones apart: the outer one never yields on this path and keeps nu/(1 - nu) = 0.4286 at
 //! 31 degrees, the plane-strain match gives 0.4406, the cone as printed by Ng et al. 0.6752. None of them is Jaky's 0.485.
 
-use super::report::table_csv;
+use super::report::named_csv;
 use super::scene::{Brick, Material, THICKNESS, points_by_number, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
 use crate::boundary::{Boundary, Friction};
@@ -26,6 +26,7 @@ pub const RUNG: Rung = Rung {
         (FaultKind::Density, 1.03),
         (FaultKind::ContactForce, 1.03),
     ],
+    under_fault: "all",
 };
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
@@ -33,6 +34,7 @@ const PHI: f64 = 31.0 * std::f64::consts::PI / 180.0;
 const HEIGHT: f64 = 0.5;
 const CELLS: [usize; 2] = [5, 40];
 const GRAVITY: f64 = 9.81;
+const CONES: [&str; 3] = ["outer cone", "plane-strain cone", "cone as printed"];
 
 /// What the wall and the points of a column show.
 struct AtRest {
@@ -91,14 +93,12 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();
     let outer = drucker_prager::outer_slope(PHI);
     let mut rows = Vec::new();
-    for (index, (name, cone, q)) in [
-        ("outer cone", Cone::TriaxialCompression, outer),
-        ("plane-strain cone", Cone::PlaneStrain, libm::sin(PHI)),
-        ("cone as printed", Cone::AsPrinted, outer / 3.0),
-    ]
-    .into_iter()
-    .enumerate()
+    for (index, (cone, q)) in
+        [(Cone::TriaxialCompression, outer), (Cone::PlaneStrain, libm::sin(PHI)), (Cone::AsPrinted, outer / 3.0)]
+            .into_iter()
+            .enumerate()
     {
+        let name = CONES[index];
         let rest = settle(cone, fault)?;
         let k = drucker_prager::oedometric_ratio(SAND.elastic.poisson, q);
         let cell = 1.0 / CELLS[1] as f64;
@@ -144,14 +144,7 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
             vec![index as f64, depth, vertical, exact, lateral, k * exact]
         }));
     }
-    let header = [
-        "cone_outer_plane_strain_printed",
-        "depth_m",
-        "vertical_pa",
-        "vertical_exact_pa",
-        "lateral_pa",
-        "lateral_exact_pa",
-    ];
-    outcome.tables.push(("earth_pressure_profile".into(), table_csv(&header, rows)));
+    let header = ["cone", "depth_m", "vertical_pa", "vertical_exact_pa", "lateral_pa", "lateral_exact_pa"];
+    outcome.tables.push(("earth_pressure_profile".into(), named_csv(&header, &[("cone", &CONES)], rows)));
     Ok(outcome)
 }

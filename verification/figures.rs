@@ -1,11 +1,12 @@
-//! Figures of the ladder: which curves to draw from which table. They are drawn from the tables' text and from nothing else.
+//! Figures of the ladder: what to draw from which table. They are drawn from the tables' text and from nothing else.
 
 use crate::plot::PlotError;
-use crate::plot::curves::{Curve, Curves, draw};
+use crate::plot::curves::{self, Curve, Curves, Panel};
+use crate::plot::heat_map::{self, HeatMap};
 use std::path::Path;
 
 /// A figure of a rung.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figure {
     /// Rung.
     pub rung: &'static str,
@@ -14,7 +15,16 @@ pub struct Figure {
     /// Name, without extension.
     pub name: &'static str,
     /// What to draw.
-    pub curves: Curves,
+    pub drawing: Drawing,
+}
+
+/// What to draw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drawing {
+    /// Columns against a column.
+    Curves(Curves),
+    /// A column by two others.
+    HeatMap(HeatMap),
 }
 
 const fn measured(column: &'static str, label: &'static str) -> Curve {
@@ -25,52 +35,96 @@ const fn exact(column: &'static str, label: &'static str) -> Curve {
     Curve { column, label, exact: true }
 }
 
+const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel {
+    Panel { title, only }
+}
+
+const fn curves(rung: &'static str, table: &'static str, name: &'static str, curves: Curves) -> Figure {
+    Figure { rung, table, name, drawing: Drawing::Curves(curves) }
+}
+
+const SHAPES: [Panel; 3] = [
+    panel("linear", &[("shape", "linear")]),
+    panel("uGIMP", &[("shape", "uGIMP")]),
+    panel("B-spline", &[("shape", "B-spline")]),
+];
+
+/// All points of a manufactured solution at the first time, by shape function.
+const MANUFACTURED: [Panel; 3] = [
+    panel("linear", &[("shape", "linear"), ("ct_over_side", "0.3"), ("place", "all points")]),
+    panel("uGIMP", &[("shape", "uGIMP"), ("ct_over_side", "0.3"), ("place", "all points")]),
+    panel("B-spline", &[("shape", "B-spline"), ("ct_over_side", "0.3"), ("place", "all points")]),
+];
+
 /// All figures.
 pub const FIGURES: &[Figure] = &[
-    Figure {
-        rung: "exactness",
-        table: "exactness_spinning_disk",
-        name: "exactness_spinning_disk_plot",
-        curves: Curves {
+    curves(
+        "exactness",
+        "exactness_spinning_disk",
+        "exactness_spinning_disk_plot",
+        Curves {
             x: "cells_per_radius",
             x_title: "cells per radius",
-            y_title: "relative change of angular momentum in 0.35 revolutions",
+            y_title: "change of angular momentum in 0.35 turns, relative",
             curves: &[measured("angular_momentum_change", "spinning disk")],
-            split: None,
-            logarithmic: true,
+            orders: &[2.0],
+            ..Curves::LOGARITHMIC
         },
-    },
-    Figure {
-        rung: "self_weight",
-        table: "self_weight_profile",
-        name: "self_weight_profile_plot",
-        curves: Curves {
+    ),
+    curves(
+        "self_weight",
+        "self_weight_profile",
+        "self_weight_profile_plot",
+        Curves {
             x: "y_exact_m",
             x_title: "height (m)",
             y_title: "vertical stress (Pa)",
             curves: &[measured("stress_pa", "points"), exact("stress_exact_pa", "exact")],
-            split: Some(("cell_size_m", "h = ")),
-            logarithmic: false,
+            split: &[("cell_size_m", "cell size (m) ")],
+            ..Curves::LINEAR
         },
-    },
-    Figure {
-        rung: "sliding_block",
-        table: "sliding_block_slip",
-        name: "sliding_block_slip_plot",
-        curves: Curves {
+    ),
+    curves(
+        "self_weight",
+        "self_weight_convergence",
+        "self_weight_convergence_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells over the height",
+            y_title: "relative error",
+            curves: &[
+                measured("stress_error", "stress"),
+                measured("position_error", "position"),
+                measured("energy_error", "elastic energy"),
+            ],
+            panels: &[panel("soft column", &[("column", "soft")]), panel("stiff column", &[("column", "stiff")])],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "sliding_block",
+        "sliding_block_slip",
+        "sliding_block_slip_plot",
+        Curves {
             x: "time_s",
             x_title: "time (s)",
             y_title: "displacement (m)",
-            curves: &[measured("displacement_m", "block"), exact("displacement_exact_m", "exact")],
-            split: Some(("slope_deg", "slope ")),
-            logarithmic: false,
+            curves: &[measured("displacement_m", ""), exact("displacement_exact_m", "exact")],
+            panels: &[
+                panel("slope 40°", &[("slope_deg", "40")]),
+                panel("slope 31°", &[("slope_deg", "31")]),
+                panel("slope 23°", &[("slope_deg", "23")]),
+            ],
+            split: &[("block", ""), ("plane_to_grid_deg", "plane to grid (degrees) ")],
+            ..Curves::LINEAR
         },
-    },
-    Figure {
-        rung: "drucker_prager_point",
-        table: "drucker_prager_point_jaumann",
-        name: "drucker_prager_point_jaumann_plot",
-        curves: Curves {
+    ),
+    curves(
+        "drucker_prager_point",
+        "drucker_prager_point_jaumann",
+        "drucker_prager_point_jaumann_plot",
+        Curves {
             x: "gamma",
             x_title: "shear strain",
             y_title: "stress (Pa)",
@@ -80,93 +134,250 @@ pub const FIGURES: &[Figure] = &[
                 measured("sigma_xx_pa", "normal"),
                 exact("sigma_xx_exact_pa", "G (1 - cos(gamma))"),
             ],
-            split: None,
-            logarithmic: false,
+            ..Curves::LINEAR
         },
-    },
-    Figure {
-        rung: "celerity",
-        table: "celerity_impact",
-        name: "celerity_impact_plot",
-        curves: Curves {
+    ),
+    curves(
+        "drucker_prager_point",
+        "drucker_prager_point_angles",
+        "drucker_prager_point_angles_plot",
+        Curves {
+            x: "friction_angle_deg",
+            x_title: "friction angle that the cone is given (degrees)",
+            y_title: "friction angle in plane strain (degrees)",
+            curves: &[measured("plane_strain_angle_deg", ""), exact("plane_strain_angle_exact_deg", "closed form")],
+            split: &[("cone", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "drucker_prager_point",
+        "drucker_prager_point_opening",
+        "drucker_prager_point_opening_plot",
+        Curves {
+            x: "strain",
+            x_title: "vertical strain, opened and closed again",
+            y_title: "vertical pressure (Pa)",
+            curves: &[measured("vertical_pressure_pa", "")],
+            split: &[("void_tracking", "void tracking ")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "celerity",
+        "celerity_lag",
+        "celerity_lag_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells along the bar",
+            y_title: "lag of a pulse behind the wave speed",
+            curves: &[measured("lag", ""), exact("lag_exact", "dispersion of the scheme")],
+            split: &[("bar", "")],
+            orders: &[2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "celerity",
+        "celerity_impact",
+        "celerity_impact_plot",
+        Curves {
             x: "time_s",
             x_title: "time after contact (s)",
             y_title: "force on the wall (N)",
             curves: &[measured("force_n", "bar strikes wall"), exact("force_exact_n", "rho c v A for 2L/c")],
-            split: None,
-            logarithmic: false,
+            ..Curves::LINEAR
         },
-    },
-    Figure {
-        rung: "energy",
-        table: "energy_pic_decay",
-        name: "energy_pic_decay_plot",
-        curves: Curves {
+    ),
+    curves(
+        "energy",
+        "energy_drift",
+        "energy_drift_plot",
+        Curves {
+            x: "cfl",
+            x_title: "c dt / h",
+            y_title: "energy to and fro within a period, relative",
+            curves: &[measured("energy_to_and_fro", ""), exact("energy_to_and_fro_exact", "w dt / 2")],
+            split: &[("scheme", ""), ("cells", "cells ")],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "energy",
+        "energy_pic_decay",
+        "energy_pic_decay_plot",
+        Curves {
             x: "kh",
             x_title: "wave number times cell size",
             y_title: "rate of decay (1/s)",
-            curves: &[measured("rate_1_s", "shear wave"), exact("rate_exact_1_s", "theory")],
-            split: None,
-            logarithmic: false,
+            curves: &[measured("rate_1_s", "standing wave"), exact("rate_exact_1_s", "a (1 - T²)/dt")],
+            ..Curves::LINEAR
         },
-    },
-    Figure {
-        rung: "earth_pressure",
-        table: "earth_pressure_profile",
-        name: "earth_pressure_profile_plot",
-        curves: Curves {
+    ),
+    curves(
+        "earth_pressure",
+        "earth_pressure_profile",
+        "earth_pressure_profile_plot",
+        Curves {
             x: "depth_m",
             x_title: "depth (m)",
             y_title: "lateral stress (Pa)",
-            curves: &[measured("lateral_pa", "points"), exact("lateral_exact_pa", "exact")],
-            split: Some(("cone_outer_plane_strain_printed", "cone ")),
-            logarithmic: false,
+            curves: &[measured("lateral_pa", ""), exact("lateral_exact_pa", "closed form")],
+            split: &[("cone", "")],
+            ..Curves::LINEAR
         },
-    },
-    Figure {
-        rung: "manufactured",
-        table: "manufactured_space",
-        name: "manufactured_space_plot",
-        curves: Curves {
+    ),
+    curves(
+        "manufactured",
+        "manufactured_space",
+        "manufactured_space_plot",
+        Curves {
             x: "cells",
             x_title: "cells per side",
-            y_title: "error of the displacement over the amplitude",
-            curves: &[measured("displacement_error", "all cases")],
-            split: Some(("shape_linear_ugimp_bspline", "shape ")),
-            logarithmic: true,
+            y_title: "error of displacement / amplitude",
+            curves: &[measured("displacement_error", "")],
+            panels: &MANUFACTURED,
+            split: &[("amplitude_over_side", "amplitude / side ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
         },
-    },
-    Figure {
-        rung: "cantilever",
-        table: "cantilever_deflection",
-        name: "cantilever_deflection_plot",
-        curves: Curves {
+    ),
+    curves(
+        "manufactured",
+        "manufactured_space",
+        "manufactured_stress_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells per side",
+            y_title: "error of stress / (M k A)",
+            curves: &[measured("stress_error", "")],
+            panels: &MANUFACTURED,
+            split: &[("amplitude_over_side", "amplitude / side ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "manufactured",
+        "manufactured_time",
+        "manufactured_time_plot",
+        Curves {
+            x: "c_dt_over_h",
+            x_title: "c dt / h",
+            y_title: "change of displacement / amplitude",
+            curves: &[measured("displacement_change", "")],
+            panels: &SHAPES,
+            split: &[("amplitude_over_side", "amplitude / side ")],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "manufactured",
+        "manufactured_vortex",
+        "manufactured_vortex_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells per radius of the vortex",
+            y_title: "relative error",
+            curves: &[measured("displacement_error", "displacement"), measured("stress_error", "stress")],
+            panels: &SHAPES,
+            split: &[("angle_rad", "angle (rad) ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "cantilever",
+        "cantilever_deflection",
+        "cantilever_deflection_plot",
+        Curves {
             x: "cells_through_depth",
             x_title: "cells through the depth",
-            y_title: "relative error of the deflection",
-            curves: &[measured("deflection_error", "all cases")],
-            split: Some(("shape_ugimp_bspline", "shape ")),
-            logarithmic: true,
+            y_title: "error of the deflection, relative",
+            curves: &[measured("deflection_error", "")],
+            panels: &[panel("uGIMP", &[("shape", "uGIMP")]), panel("B-spline", &[("shape", "B-spline")])],
+            split: &[("load", ""), ("length_over_depth", "L/t "), ("poisson", "nu ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
         },
-    },
-    Figure {
-        rung: "wall_pressure",
-        table: "wall_pressure_stroke",
-        name: "wall_pressure_stroke_plot",
-        curves: Curves {
-            x: "stroke_over_height",
-            x_title: "stroke over height",
-            y_title: "earth pressure coefficient",
-            curves: &[measured("coefficient", "all cases")],
-            split: None,
-            logarithmic: false,
+    ),
+    curves(
+        "cantilever",
+        "cantilever_elastica",
+        "cantilever_elastica_plot",
+        Curves {
+            x: "cells_through_depth",
+            x_title: "cells through the depth",
+            y_title: "deflection / length, at 26° of the tip",
+            curves: &[measured("deflection_over_length", ""), exact("deflection_exact", "elastica with shear")],
+            split: &[("shape", "")],
+            ..Curves::LINEAR
         },
-    },
-    Figure {
-        rung: "collapse",
-        table: "collapse_laws",
-        name: "collapse_laws_plot",
-        curves: Curves {
+    ),
+    curves(
+        "cantilever",
+        "cantilever_frequency",
+        "cantilever_frequency_plot",
+        Curves {
+            x: "cells_through_depth",
+            x_title: "cells through the depth",
+            y_title: "first frequency (Hz)",
+            curves: &[measured("frequency_hz", ""), exact("frequency_exact_hz", "3.516, shear, rotary inertia")],
+            split: &[("shape", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "wall_pressure",
+        "wall_pressure_stroke",
+        "wall_pressure_stroke_plot",
+        Curves {
+            x: "stroke_percent",
+            x_title: "stroke / height of the wall (%)",
+            y_title: "normal force / (rho g H² / 2)",
+            curves: &[
+                measured("coefficient", ""),
+                exact("coefficient_theory", "closed form of the fill's cone"),
+                exact("coefficient_at_31_deg", "Rankine or Coulomb at 31°"),
+            ],
+            panels: &[
+                panel("active, smooth base", &[("side", "active"), ("base", "smooth")]),
+                panel("passive, smooth base", &[("side", "passive"), ("base", "smooth")]),
+                panel("active, wedge on a rough base", &[("side", "active"), ("base", "rough")]),
+                panel("passive, wedge on a rough base", &[("side", "passive"), ("base", "rough")]),
+            ],
+            split: &[("fill", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "wall_pressure",
+        "wall_pressure_wedge",
+        "wall_pressure_wedge_plot",
+        Curves {
+            x: "height_over_height",
+            x_title: "height / height of the wall",
+            y_title: "distance / height of the wall",
+            curves: &[
+                measured("edge_over_height", ""),
+                exact("coulomb_over_height", "Coulomb's wedge, smooth wall: 45° ± phi/2"),
+                exact("roscoe_over_height", "45° ± psi/2"),
+            ],
+            panels: &[
+                panel("active, constant volume", &[("side", "active"), ("flow", "constant volume")]),
+                panel("passive, constant volume", &[("side", "passive"), ("flow", "constant volume")]),
+                panel("active, associated flow", &[("side", "active"), ("flow", "associated")]),
+                panel("passive, associated flow", &[("side", "passive"), ("flow", "associated")]),
+            ],
+            split: &[("fill", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "collapse",
+        "collapse_laws",
+        "collapse_laws_plot",
+        Curves {
             x: "aspect_ratio",
             x_title: "height over half width of the column",
             y_title: "run-out over half width",
@@ -176,9 +387,48 @@ pub const FIGURES: &[Figure] = &[
                 exact("run_out_lube_2005", "Lube 2005"),
                 exact("run_out_lajeunesse_2005", "Lajeunesse 2005"),
             ],
-            split: None,
-            logarithmic: false,
+            ..Curves::LINEAR
         },
+    ),
+    curves(
+        "collapse",
+        "collapse_laws",
+        "collapse_height_plot",
+        Curves {
+            x: "aspect_ratio",
+            x_title: "height over half width of the column",
+            y_title: "final height over half width",
+            curves: &[
+                measured("height", "at the wall"),
+                exact("height_lube_2005", "Lube 2005"),
+                exact("height_lajeunesse_2005", "Lajeunesse 2005"),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+    Figure {
+        rung: "convergence",
+        table: "convergence_grids",
+        name: "convergence_grids_plot",
+        drawing: Drawing::HeatMap(HeatMap {
+            panel: "quantity",
+            panels: &[
+                ("bar_plateau_pa", "bar on a wall: force"),
+                ("bar_impulse_over_2mv", "bar on a wall: impulse"),
+                ("column_wall_force_n_per_m", "column: force on the wall"),
+                ("column_settlement_m", "column: settlement"),
+                ("flume_peak_20ms_n", "flume: peak force over 20 ms"),
+                ("flume_static_n", "flume: static force"),
+                ("flume_arrival_s", "flume: arrival"),
+                ("flume_front_velocity_at_0.7m_m_per_s", "flume: front velocity at 0.7 m"),
+            ],
+            x: "h_m",
+            x_title: "cell size (m)",
+            y: "particles_per_cell",
+            y_title: "points/cell",
+            value: "deviation_percent",
+            value_title: "deviation from the reference (%), colour by its size",
+        }),
     },
 ];
 
@@ -190,7 +440,11 @@ pub fn draw_figures(rung: &str, folder: &Path) -> Result<Vec<String>, PlotError>
     let own = FIGURES.iter().filter(|f| f.rung == rung);
     own.map(|f| {
         let file = format!("{}.svg", f.name);
-        draw(folder.join(f.table).with_extension("csv"), &f.curves, folder.join(&file))?;
+        let (table, path) = (folder.join(f.table).with_extension("csv"), folder.join(&file));
+        match &f.drawing {
+            Drawing::Curves(what) => curves::draw(table, what, path)?,
+            Drawing::HeatMap(what) => heat_map::draw(table, what, path)?,
+        }
         Ok(file)
     })
     .collect()

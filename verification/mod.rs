@@ -28,6 +28,8 @@ pub use fault::{Fault, FaultKind};
 
 use crate::check::{Check, Verdict};
 use crate::simulation::StepFailure;
+use figures::FIGURES;
+use std::path::Path;
 
 /// Why a rung could not be run to its end.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,6 +56,8 @@ pub struct Rung {
     pub run: fn(&Fault) -> Result<Outcome, RungFailure>,
     /// Faults that it claims to catch, with their factors f; 2 - f is tried as well.
     pub covers: &'static [(FaultKind, f64)],
+    /// What of it runs under a fault, where a part is enough to notice; "all" otherwise.
+    pub under_fault: &'static str,
 }
 
 /// What a rung found.
@@ -77,14 +81,12 @@ impl Outcome {
         self.tables.extend(other.tables);
     }
 
-    /// The outcome as a verdict of the rung `name`.
-    pub fn verdict(&self, name: &str) -> Verdict {
-        let artefacts = std::iter::once(name).chain(self.tables.iter().map(|t| t.0.as_str()));
-        Verdict {
-            name: name.into(),
-            checks: self.checks.clone(),
-            artefacts: artefacts.map(|n| format!("{n}.csv")).collect(),
-        }
+    /// The outcome as a verdict of the rung `name`, whose tables and figures are in `folder`.
+    pub fn verdict(&self, name: &str, folder: &Path) -> Verdict {
+        let tables = std::iter::once(name).chain(self.tables.iter().map(|t| t.0.as_str())).map(|n| format!("{n}.csv"));
+        let figures = FIGURES.iter().filter(|f| f.rung == name).map(|f| format!("{}.svg", f.name));
+        let path = |file: String| folder.join(file).display().to_string();
+        Verdict { name: name.into(), checks: self.checks.clone(), artefacts: figures.chain(tables).map(path).collect() }
     }
 }
 

@@ -1,14 +1,16 @@
 //! Reports as CSV text: the same bytes for the same bits.
 
 use super::figures::draw_figures;
-use super::{Outcome, RUNGS};
-use crate::check::{Check, Expected, significant};
+use super::{Fault, FaultKind, Outcome, RUNGS, Rung};
+use crate::check::{Check, Expected, Kind, significant};
 use crate::output::{OutputError, write_text};
 use crate::plot::PlotError;
 use std::path::Path;
 
 /// Significant digits in reports.
 pub const DIGITS: usize = 9;
+/// The same of how many times its tolerance an error is.
+const RATIO_DIGITS: usize = 2;
 
 /// Everything that a rung leaves behind, as (name without extension, CSV text): its checks, then its tables.
 pub fn files(name: &str, outcome: &Outcome) -> Vec<(String, String)> {
@@ -75,19 +77,84 @@ pub fn table_csv(header: &[&str], rows: impl IntoIterator<Item = Vec<f64>>) -> S
     text
 }
 
-/// Which rung claims to catch which fault, as CSV.
-pub fn faults_csv(rows: &[(&str, &str, f64, usize, String)]) -> String {
-    let mut text = String::from("rung,fault,factor,failing_checks,first_failing_check\n");
-    for (rung, fault, factor, failing, first) in rows {
-        text.push_str(&format!("{rung},{fault},{},{failing},{}\n", number(*factor), quoted(first)));
+/// Like [`table_csv`], for rows some of whose columns hold the index of a name: `codes` has those columns and their names.
+pub fn named_csv(header: &[&str], codes: &[(&str, &[&str])], rows: impl IntoIterator<Item = Vec<f64>>) -> String {
+    let numbers = table_csv(header, rows);
+    let names = |column: &str| codes.iter().find(|c| c.0 == column).map(|c| c.1);
+    let replaced = |line: &str| {
+        let cells = line.split(',').zip(header).map(|(cell, column)| {
+            let name = names(column).and_then(|n| n.get(cell.parse::<usize>().ok()?));
+            name.map_or_else(|| cell.to_string(), |n| quoted(n))
+        });
+        cells.collect::<Vec<_>>().join(",") + "\n"
+    };
+    numbers.lines().enumerate().map(|(k, line)| if k == 0 { format!("{line}\n") } else { replaced(line) }).collect()
+}
+
+/// What a rung made of a fault.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Caught {
+    /// Rung.
+    pub rung: &'static str,
+    /// Fault.
+    pub fault: FaultKind,
+    /// Its factor.
+    pub factor: f64,
+    /// Checks that measured something and fail, of how many there are; none if the run broke down.
+    pub failing: usize,
+    /// All checks.
+    pub checks: usize,
+    /// Largest [`Check::share_used`] among the failing checks: how many times the tolerance the error is.
+    pub ratio: f64,
+    /// That check, or why the run broke down.
+    pub sharpest: String,
+}
+
+impl Caught {
+    /// Runs a rung under a fault. A run that breaks down or measures no number has caught nothing: that is no physics.
+    pub fn by(rung: &Rung, fault: FaultKind, factor: f64) -> Self {
+        let nothing =
+            Self { rung: rung.name, fault, factor, failing: 0, checks: 0, ratio: 0.0, sharpest: String::new() };
+        let outcome = match (rung.run)(&Fault::of(fault, factor)) {
+            Ok(outcome) => outcome,
+            Err(failure) => return Self { sharpest: format!("the run breaks down: {failure}"), ..nothing },
+        };
+        let failing: Vec<&Check> = outcome
+            .checks
+            .iter()
+            .filter(|c| c.measured.is_finite() && c.kind != Kind::Golden && c.share_used() > 1.0)
+            .collect();
+        // The first of those that share the largest ratio, as far as it is written down.
+        let largest = failing.iter().map(|c| c.share_used()).fold(0.0, f64::max);
+        let written = |x: f64| significant(x, RATIO_DIGITS);
+        let sharpest = failing.iter().find(|c| written(c.share_used()) == written(largest));
+        Self {
+            failing: failing.len(),
+            checks: outcome.checks.len(),
+            ratio: largest,
+            sharpest: sharpest.map_or_else(String::new, |c| c.what.clone()),
+            ..nothing
+        }
+    }
+}
+
+/// Which rung caught which fault and how clearly, as CSV.
+pub fn faults_csv(rows: &[Caught]) -> String {
+    let mut text = String::from("rung,fault,factor,failing_checks,checks,detection_ratio,sharpest_check\n");
+    for c in rows {
+        let ratio = significant(c.ratio, RATIO_DIGITS);
+        let (factor, sharpest) = (number(c.factor), quoted(&c.sharpest));
+        let cells = [c.rung, c.fault.name(), &factor, &c.failing.to_string(), &c.checks.to_string(), &ratio, &sharpest];
+        text.push_str(&cells.join(","));
+        text.push('\n');
     }
     text
 }
 
 /// The ladder as CSV.
 pub fn ladder_csv() -> String {
-    let rows = RUNGS.iter().map(|r| format!("{},{}\n", r.name, quoted(r.title)));
-    std::iter::once("rung,title\n".to_string()).chain(rows).collect()
+    let rows = RUNGS.iter().map(|r| format!("{},{},{}\n", r.name, quoted(r.title), quoted(r.under_fault)));
+    std::iter::once("rung,title,what_runs_under_a_fault\n".to_string()).chain(rows).collect()
 }
 
 /// Nine significant digits, shortest form; an infinite bound is an empty cell.
@@ -130,7 +197,35 @@ fn quoted(s: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::{Kind, Tolerance};
+    use crate::check::Tolerance;
+    use crate::verification::RungFailure;
+
+    /// A rung whose checks fail, but only one of them on a number that was measured against physics.
+    fn failing(fault: &Fault) -> Result<Outcome, RungFailure> {
+        let check = |what: &str, measured: f64, kind| {
+            let reason = "a tenth";
+            Check::value(what, measured, 1.0, "1").within(Tolerance::Absolute(0.1), reason).from(kind, "s")
+        };
+        let mut outcome = Outcome::default();
+        outcome.check(check("broken", f64::NAN, Kind::Analytic));
+        outcome.check(check("diverged", f64::INFINITY, Kind::Analytic));
+        outcome.check(check("changed", 7.0, Kind::Golden));
+        outcome.check(Check { source: String::new(), ..check("unsourced", 1.0, Kind::Analytic) });
+        outcome.check(check("friction", fault.friction, Kind::Analytic));
+        Ok(outcome)
+    }
+
+    #[test]
+    fn only_numbers_that_miss_physics_catch_a_fault() {
+        let rung = Rung { name: "r", title: "t", run: failing, covers: &[], under_fault: "all" };
+        let caught = Caught::by(&rung, FaultKind::Friction, 1.25);
+        assert_eq!((caught.failing, caught.checks, caught.sharpest.as_str()), (1, 5, "friction"));
+        assert!((caught.ratio - 2.5).abs() < 1e-9);
+        let missed = Caught::by(&rung, FaultKind::Gravity, 1.25);
+        assert_eq!((missed.failing, missed.ratio, missed.sharpest.as_str()), (0, 0.0, ""));
+        let table = faults_csv(&[caught, missed]);
+        assert!(table.ends_with("r,friction,1.25,1,5,2.5,friction\nr,gravity,1.25,0,5,0,\n"), "{table}");
+    }
 
     #[test]
     fn digits_of_round_off_are_dropped() {
@@ -139,6 +234,8 @@ mod tests {
         assert_eq!(power_of_ten(0.0), 0.0);
         let table = table_csv(&["a_m", "b_1"], [vec![20.123_456_789_1, 1.0], vec![1.1e-31, f64::INFINITY]]);
         assert_eq!(table, "a_m,b_1\n20.1234568,1\n0,\n");
+        let named = named_csv(&["shape", "a_m"], &[("shape", &["linear", "uGIMP"])], [vec![1.0, 0.5], vec![0.0, 1.0]]);
+        assert_eq!(named, "shape,a_m\nuGIMP,0.5\nlinear,1\n");
         let check = Check::at_most("noise", 2.2e-16, 1e-14, "1").because("r").from(Kind::Analytic, "s");
         assert_eq!(measured(&check, check.measured), "0");
         let check = Check::value("speed", 1.234_567_891_23, 1.234, "m/s")

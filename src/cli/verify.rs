@@ -34,7 +34,7 @@ pub fn verify(names: &[String], out: &Path) -> ExitCode {
                 continue;
             }
         };
-        let verdict = outcome.verdict(rung.name);
+        let verdict = outcome.verdict(rung.name, out);
         say!("{verdict}");
         if !verdict.passes() {
             failed.push(rung.name);

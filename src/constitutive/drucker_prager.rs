@@ -122,9 +122,9 @@ impl Law for DruckerPrager {
         let after =
             Stress { xx: mean + scale * dx, yy: mean + scale * dy, zz: mean + scale * dz, xy: scale * trial.xy };
 
-        let opening = (mean_cone - mean) / bulk;
+        let opening = (mean_cone - mean) * (1.0 / bulk);
         state.opened = if self.void_tracking { still_open + opening } else { 0.0 };
-        state.plastic_shear += (tau_trial - tau) / (shear * 3f64.sqrt());
+        state.plastic_shear += (tau_trial - tau) * (1.0 / (shear * 3f64.sqrt()));
         state.stress = after.rotated(c, s);
         midpoint_work(&before, &after, d)
     }

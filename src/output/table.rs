@@ -261,6 +261,26 @@ impl Table {
         self.rows
     }
 
+    /// The cells of a column as text, read from the file again: names and parameters by which rows are told apart.
+    ///
+    /// # Errors
+    /// [`OutputError::MissingColumn`], [`OutputError::Open`] or [`OutputError::Malformed`].
+    pub fn cells(&self, name: &str) -> Result<Vec<String>, OutputError> {
+        let Some(k) = self.names.iter().position(|other| other == name) else {
+            let available = self.names.join(", ");
+            return Err(OutputError::MissingColumn { path: self.path.clone(), column: name.to_owned(), available });
+        };
+        let open = |source| OutputError::Open { path: self.path.clone(), source };
+        let file = File::open(&self.path).map_err(open)?;
+        let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(file);
+        let text = |(line, row): (usize, Result<csv::StringRecord, csv::Error>)| {
+            let malformed = |reason| OutputError::Malformed { path: self.path.clone(), line: line as u64 + 2, reason };
+            let row = row.map_err(|error| malformed(error.to_string()))?;
+            row.get(k).map(str::to_owned).ok_or_else(|| malformed("a cell is missing".to_owned()))
+        };
+        reader.records().enumerate().map(text).collect()
+    }
+
     /// The values of a column, in the unit its name ends in; NaN where the cell is empty.
     ///
     /// # Errors

@@ -15,6 +15,8 @@ pub(super) struct Axis {
     pub(super) hi: f64,
     pub(super) ticks: Vec<f64>,
     decimals: usize,
+    /// What the ticks are called, where it is not their value.
+    names: Vec<String>,
 }
 
 impl Axis {
@@ -37,11 +39,34 @@ impl Axis {
         let first = (lo / step - 1e-9).ceil() as i64;
         let last = (hi / step + 1e-9).floor() as i64;
         let ticks = (first..=last).map(|k| k as f64 * step).collect();
-        Self { lo, hi, ticks, decimals: (-step.log10() - 1e-9).ceil().max(0.0) as usize }
+        Self { lo, hi, ticks, decimals: (-step.log10() - 1e-9).ceil().max(0.0) as usize, names: Vec::new() }
+    }
+
+    /// Covers the decimal logarithms `lo` to `hi`, from decade to decade.
+    pub(super) fn decades(lo: f64, hi: f64) -> Self {
+        let (first, last) = ((lo + 1e-9).floor() as i32, (hi - 1e-9).ceil() as i32);
+        let last = last.max(first + 1);
+        let every = ((last - first) / 6 + 1) as usize;
+        let powers: Vec<i32> = (first..=last).step_by(every).collect();
+        let names = powers.iter().map(|p| power_of_ten(*p)).collect();
+        let ticks = powers.into_iter().map(f64::from).collect();
+        Self { lo: f64::from(first), hi: f64::from(last), ticks, decimals: 0, names }
+    }
+
+    /// Ticks at these places (ascending, not empty), called so, with a little room beyond them.
+    pub(super) fn named(ticks: Vec<f64>, names: Vec<String>) -> Self {
+        let (lo, hi) = widened(ticks[0], ticks[ticks.len() - 1]);
+        let room = 0.04 * (hi - lo);
+        Self { lo: lo - room, hi: hi + room, ticks, decimals: 0, names }
     }
 
     /// A tick as text.
     pub(super) fn label(&self, value: f64) -> String {
+        if let Some(k) = self.ticks.iter().position(|t| *t == value)
+            && let Some(name) = self.names.get(k)
+        {
+            return name.clone();
+        }
         let text = format!("{value:.*}", self.decimals);
         if value.abs() < 1e-9 * (self.hi - self.lo) { text.replace('-', "") } else { text.replace('-', "\u{2212}") }
     }
@@ -68,6 +93,19 @@ impl Ranged for Axis {
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
         self.label(*value)
+    }
+}
+
+/// A power of ten as one writes it.
+pub(super) fn power_of_ten(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
+    match exponent {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        _ => std::iter::once("10".to_owned())
+            .chain(exponent.to_string().chars().map(|c| raised(c).to_string()))
+            .collect(),
     }
 }
 
@@ -188,6 +226,10 @@ mod tests {
         );
         let flat = Axis::round(3.0, 3.0, 5);
         assert!(flat.lo < 3.0 && flat.hi > 3.0);
+        let log = Axis::decades(-2.3, 0.4);
+        assert_eq!(log.ticks.iter().map(|t| log.label(*t)).collect::<Vec<_>>(), ["10⁻³", "10⁻²", "10⁻¹", "1", "10"]);
+        let named = Axis::named(vec![0.0, 1.0], vec!["8".into(), "16".into()]);
+        assert!(named.label(1.0) == "16" && named.lo < 0.0 && named.hi > 1.0);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Curves from a table: what was measured beside what is exact, optionally split by a parameter, optionally logarithmic.
+//! Curves from a table: what was measured beside what is exact, in panels, split by parameters, optionally logarithmic.
 
 use std::path::Path;
 
@@ -8,30 +8,39 @@ use plotters::style::text_anchor::HPos;
 use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
 use super::style::{
-    BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, VERMILION, drawing, line, render, stroke, text_width_px,
-    units, write_at,
+    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, TEXT_PX, VERMILION, WIDTH_PX, drawing, lighten,
+    line, render, stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
 /// Colours of the curves, in turn.
 const COLOURS: [RGBColor; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];
-const HEIGHT_PX: i32 = 460;
 /// More points than this are drawn without markers.
 const MARKED: usize = 40;
+const LEGEND_ROW_PX: f64 = 19.0;
 
 /// One column against another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Curve {
     /// Column of the values.
     pub column: &'static str,
-    /// What to call it.
+    /// What to call it; may be empty where the split says enough.
     pub label: &'static str,
     /// Whether it is what should come out (thin, grey, no markers) rather than what did.
     pub exact: bool,
 }
 
-/// What to draw from a table.
+/// A part of the rows, with axes of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Panel {
+    /// What stands above it.
+    pub title: &'static str,
+    /// Columns and the text that a row must have there.
+    pub only: &'static [(&'static str, &'static str)],
+}
+
+/// What to draw from a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Curves {
     /// Column along the horizontal axis.
     pub x: &'static str,
@@ -41,10 +50,31 @@ pub struct Curves {
     pub y_title: &'static str,
     /// The curves.
     pub curves: &'static [Curve],
-    /// A column that splits the rows into one set of curves per value, and what to call that value.
-    pub split: Option<(&'static str, &'static str)>,
-    /// Whether both axes show decimal logarithms of magnitudes; zeros are left out.
+    /// The panels; none for one of all rows.
+    pub panels: &'static [Panel],
+    /// Columns that split the rows into one set of curves per combination, and what to write before their values.
+    pub split: &'static [(&'static str, &'static str)],
+    /// Whether both axes are logarithmic, of magnitudes; zeros are left out.
     pub logarithmic: bool,
+    /// Slopes to compare with, on logarithmic axes.
+    pub orders: &'static [f64],
+}
+
+impl Curves {
+    /// One panel on linear axes.
+    pub const LINEAR: Curves = Curves {
+        x: "",
+        x_title: "",
+        y_title: "",
+        curves: &[],
+        panels: &[],
+        split: &[],
+        logarithmic: false,
+        orders: &[],
+    };
+
+    /// One panel on logarithmic axes.
+    pub const LOGARITHMIC: Curves = Curves { logarithmic: true, ..Self::LINEAR };
 }
 
 /// A drawn curve: label, whether exact, points.
@@ -57,92 +87,202 @@ struct Drawn {
 /// Draws `out_svg` from `csv`.
 ///
 /// # Errors
-/// [`PlotError::File`] for a missing column or file, [`PlotError::Data`] for a table without a point to draw.
+/// [`PlotError::File`] for a missing column or file, [`PlotError::Data`] for a panel without a point to draw.
 pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> Result<(), PlotError> {
     let table = Table::load(csv)?;
-    let drawn = select(&table, what)?;
-    let all = || drawn.iter().flat_map(|d| &d.points).filter(|p| p.0.is_finite());
-    if all().next().is_none() {
-        return Err(PlotError::data(table.path(), "no row has a value on both axes"));
-    }
-    let range = |value: fn(&(f64, f64)) -> f64| {
-        all().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
-    };
-    let ((x0, x1), (y0, y1)) = (range(|p| p.0), range(|p| p.1));
-    // Zero belongs on the axis unless that would flatten the curves.
-    let y0 = if !what.logarithmic && y0 > 0.0 && y0 < 0.7 * y1 { 0.0 } else { y0 };
-    let (x, y) = (Axis::exact(x0, x1, 6), Axis::round(y0, y1, 6));
-    let key = drawn.iter().map(|d| text_width_px(&d.label, SMALL_PX)).fold(0.0, f64::max);
-    let margins = Margins { left: 84.0, right: 56.0 + key, top: 16.0, bottom: 46.0 };
-    let titled = |title: &str| if what.logarithmic { format!("log10 of {title}") } else { title.to_string() };
+    let whole = [Panel { title: "", only: &[] }];
+    let panels = if what.panels.is_empty() { &whole[..] } else { what.panels };
+    let drawn = panels.iter().map(|panel| select(&table, what, panel)).collect::<Result<Vec<_>, _>>()?;
+    let legend = legend(drawn.iter().flatten());
+    let places = flow(&legend);
+    let rows = places.last().map_or(0, |p| p.1 + 1);
 
-    render(out_svg.as_ref(), HEIGHT_PX, |canvas| {
-        let titles = (titled(what.x_title), titled(what.y_title));
-        let frame = Frame::draw(canvas, &margins, (&x, &titles.0), (&y, &titles.1))?;
-        let (_, right, top, bottom) = frame.bounds();
-        let pitch = units(19.0).min((bottom - top) / (drawn.len() as i32 + 1));
-        let mut colours = COLOURS.iter().cycle();
-        for (k, d) in drawn.iter().enumerate() {
-            let colour = if d.exact { GREY } else { *colours.next().unwrap_or(&INK) };
-            let style = line(colour, if d.exact { 1.2 } else { 1.8 });
-            let (xs, ys): (Vec<f64>, Vec<f64>) = d.points.iter().copied().unzip();
-            frame.series(canvas, &xs, &ys, style)?;
-            if !d.exact && d.points.len() <= MARKED {
-                let marker = ShapeStyle { color: colour.to_rgba(), filled: true, stroke_width: 0 };
-                for &(px, py) in d.points.iter().filter(|p| p.0.is_finite()) {
-                    canvas.draw(&Circle::new(frame.spot(px, py), units(3.0), marker)).map_err(drawing)?;
-                }
-            }
-            let at = (right + units(14.0), top + pitch * (k as i32 + 1) - units(6.0));
-            stroke(canvas, vec![at, (at.0 + units(18.0), at.1)], style)?;
-            write_at(canvas, &d.label, (at.0 + units(24.0), at.1), SMALL_PX, INK, HPos::Left)?;
+    let columns = match panels.len() {
+        1 => 1,
+        2 | 4 => 2,
+        _ => 3,
+    };
+    let tall = if columns == 1 { 400.0 } else { 290.0 };
+    let height = tall * panels.len().div_ceil(columns) as f64;
+    let total = (height + LEGEND_ROW_PX * rows as f64 + 14.0).ceil() as i32;
+    render(out_svg.as_ref(), total, |canvas| {
+        let wide = f64::from(WIDTH_PX) / columns as f64;
+        for (k, (panel, curves)) in panels.iter().zip(&drawn).enumerate() {
+            let (row, column) = (k / columns, k % columns);
+            let corner = (units(wide * column as f64), units(tall * row as f64));
+            let area = canvas.clone().shrink(corner, (units(wide), units(tall)));
+            let last = k + columns >= panels.len();
+            draw_panel(canvas, &area, what, panel, curves, &legend, [column == 0, last])?;
+        }
+        for ((label, style), (x, row)) in legend.iter().zip(&places) {
+            let at = (units(*x), units(height + LEGEND_ROW_PX * (*row as f64 + 0.5)));
+            stroke(canvas, vec![at, (at.0 + units(20.0), at.1)], *style)?;
+            write_at(canvas, label, (at.0 + units(26.0), at.1), SMALL_PX, INK, HPos::Left)?;
         }
         Ok(())
     })
 }
 
-/// The curves of a table, split and transformed.
-fn select(table: &Table, what: &Curves) -> Result<Vec<Drawn>, PlotError> {
-    let x = table.column(what.x)?;
-    let split = what.split.map(|(column, label)| table.column(column).map(|v| (v, label))).transpose()?;
-    let mut values: Vec<f64> = split.map_or_else(|| vec![f64::NAN], |(v, _)| v.to_vec());
-    values.dedup();
-    let mut seen = Vec::new();
-    values.retain(|v| {
-        !seen.contains(&v.to_bits()) && {
-            seen.push(v.to_bits());
-            true
+/// One panel; `titled` says whether its vertical and its horizontal axis have a title.
+fn draw_panel(
+    canvas: &Canvas<'_>,
+    area: &Canvas<'_>,
+    what: &Curves,
+    panel: &Panel,
+    curves: &[Drawn],
+    legend: &[(String, ShapeStyle)],
+    titled: [bool; 2],
+) -> Result<(), PlotError> {
+    let [x, y] = axes(what, curves);
+    let top = if panel.title.is_empty() { 16.0 } else { 32.0 };
+    let left = if what.panels.len() > 1 { 74.0 } else { 92.0 };
+    let margins = Margins { left, right: 22.0, top, bottom: 46.0 };
+    let title = |k: usize, text| if titled[k] { text } else { "" };
+    let frame = Frame::draw(area, &margins, (&x, title(1, what.x_title)), (&y, title(0, what.y_title)))?;
+    let (left, right, upper, lower) = frame.bounds();
+    write_at(canvas, panel.title, ((left + right) / 2, upper - units(14.0)), TEXT_PX, INK, HPos::Center)?;
+    guides(canvas, &frame, what.orders, &x, curves, [upper, lower])?;
+    for d in curves {
+        let style = legend.iter().find(|l| l.0 == d.label).map_or_else(|| line(INK, 1.0), |l| l.1);
+        let (xs, ys): (Vec<f64>, Vec<f64>) = d.points.iter().copied().unzip();
+        frame.series(canvas, &xs, &ys, style)?;
+        if !d.exact && d.points.len() <= MARKED {
+            let marker = ShapeStyle { filled: true, stroke_width: 0, ..style };
+            for &(px, py) in d.points.iter().filter(|p| p.0.is_finite()) {
+                canvas.draw(&Circle::new(frame.spot(px, py), units(3.0), marker)).map_err(drawing)?;
+            }
         }
-    });
+    }
+    Ok(())
+}
+
+/// Axes around the points; the horizontal ticks are the values that occur, if they are few.
+fn axes(what: &Curves, curves: &[Drawn]) -> [Axis; 2] {
+    let all = || curves.iter().flat_map(|d| &d.points).filter(|p| p.0.is_finite());
+    let range = |value: fn(&(f64, f64)) -> f64| {
+        all().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
+    };
+    let ((x0, x1), (y0, y1)) = (range(|p| p.0), range(|p| p.1));
+    let mut places: Vec<f64> = all().map(|p| p.0).collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let named = |places: Vec<f64>, value: fn(f64) -> f64| {
+        let names = places.iter().map(|p| crate::check::significant(value(*p), 3)).collect();
+        Axis::named(places, names)
+    };
+    if !what.logarithmic {
+        // Zero belongs on the axis unless that would flatten the curves.
+        let y0 = if y0 > 0.0 && y0 < 0.7 * y1 { 0.0 } else { y0 };
+        let count = if what.panels.len() > 1 { 4 } else { 6 };
+        let x = if places.len() <= 5 { named(places, |x| x) } else { Axis::exact(x0, x1, count) };
+        return [x, Axis::round(y0, y1, 6)];
+    }
+    let x = if places.len() <= 8 { named(places, |x| 10f64.powf(x)) } else { Axis::decades(x0, x1) };
+    [x, Axis::decades(y0, y1)]
+}
+
+/// Thin lines of given slopes from the largest value on the left, named at their ends.
+fn guides(
+    canvas: &Canvas<'_>,
+    frame: &Frame<'_>,
+    orders: &[f64],
+    x: &Axis,
+    curves: &[Drawn],
+    [upper, lower]: [i32; 2],
+) -> Result<(), PlotError> {
+    let (a, b) = (x.ticks[0], x.ticks[x.ticks.len() - 1]);
+    let coarsest = curves.iter().flat_map(|d| &d.points).filter(|p| (p.0 - a).abs() < 1e-9 && p.1.is_finite());
+    let Some(top) = coarsest.map(|p| p.1).max_by(f64::total_cmp) else {
+        return Ok(());
+    };
+    for order in orders {
+        let from = frame.spot(a, top);
+        let to = frame.spot(b, top - order * (b - a));
+        // Cut where it leaves the panel.
+        let share = if to.1 > lower { f64::from(lower - from.1) / f64::from(to.1 - from.1) } else { 1.0 };
+        let end =
+            (from.0 + (f64::from(to.0 - from.0) * share) as i32, from.1 + (f64::from(to.1 - from.1) * share) as i32);
+        stroke(canvas, vec![from, end], line(lighten(GREY, 0.55), 1.0))?;
+        let at = (end.0 - units(4.0), (end.1 - units(9.0)).max(upper));
+        write_at(canvas, &format!("order {order}"), at, SMALL_PX, lighten(GREY, 0.3), HPos::Right)?;
+    }
+    Ok(())
+}
+
+/// Labels in the order in which they appear, each with its line.
+fn legend<'a>(curves: impl Iterator<Item = &'a Drawn>) -> Vec<(String, ShapeStyle)> {
+    let mut seen: Vec<(String, ShapeStyle)> = Vec::new();
+    let (mut measured, mut exact) = (0, 0);
+    for d in curves {
+        if seen.iter().any(|s| s.0 == d.label) {
+            continue;
+        }
+        let style = if d.exact {
+            exact += 1;
+            line(lighten(GREY, 1.0 - 0.55f64.powi(exact - 1)), 1.4)
+        } else {
+            measured += 1;
+            line(COLOURS[(measured - 1) % COLOURS.len()], 1.8)
+        };
+        seen.push((d.label.clone(), style));
+    }
+    seen
+}
+
+/// Where the entries of the legend begin (px), and in which of its rows.
+fn flow(legend: &[(String, ShapeStyle)]) -> Vec<(f64, usize)> {
+    let (mut x, mut row) = (20.0, 0);
+    let mut places = Vec::new();
+    for (label, _) in legend {
+        let wide = 26.0 + text_width_px(label, SMALL_PX) + 18.0;
+        if x > 20.0 && x + wide > f64::from(WIDTH_PX) {
+            (x, row) = (20.0, row + 1);
+        }
+        places.push((x, row));
+        x += wide;
+    }
+    places
+}
+
+/// The curves of a panel, split and transformed.
+fn select(table: &Table, what: &Curves, panel: &Panel) -> Result<Vec<Drawn>, PlotError> {
+    let x = table.column(what.x)?;
+    let mut rows: Vec<usize> = (0..table.rows()).collect();
+    for (column, value) in panel.only {
+        let cells = table.cells(column)?;
+        rows.retain(|k| cells[*k] == *value);
+    }
+    let mut keys = vec![Vec::new(); table.rows()];
+    for (column, before) in what.split {
+        for (key, cell) in keys.iter_mut().zip(table.cells(column)?) {
+            key.push(format!("{before}{cell}"));
+        }
+    }
+    let mut sets: Vec<&Vec<String>> = Vec::new();
+    for k in &rows {
+        if !sets.contains(&&keys[*k]) {
+            sets.push(&keys[*k]);
+        }
+    }
+    let map = |v: f64| if what.logarithmic { v.abs().log10() } else { v };
     let mut drawn = Vec::new();
-    for &value in &values {
+    for set in sets {
         for curve in what.curves {
             let y = table.column(curve.column)?;
-            let rows = (0..table.rows()).filter(|k| split.is_none_or(|(v, _)| v[*k] == value));
-            let map = |v: f64| if what.logarithmic { v.abs().log10() } else { v };
+            let own = rows.iter().filter(|k| keys[**k] == *set);
             let points: Vec<_> =
-                rows.map(|k| (map(x[k]), map(y[k]))).filter(|(a, b)| a.is_finite() && b.is_finite()).collect();
-            let points = parted(points);
-            let label = match split {
-                None => curve.label.to_string(),
-                Some((_, name)) => format!("{}, {name} {value}", curve.label),
-            };
+                own.map(|k| (map(x[*k]), map(y[*k]))).filter(|(a, b)| a.is_finite() && b.is_finite()).collect();
+            // What should come out has one name, whatever is varied.
+            let words = std::iter::once(curve.label).filter(|l| !l.is_empty());
+            let split = set.iter().map(String::as_str).filter(|_| !curve.exact);
+            let label = words.chain(split).collect::<Vec<_>>().join(", ");
             if !points.is_empty() {
                 drawn.push(Drawn { label, exact: curve.exact, points });
             }
         }
     }
-    Ok(drawn)
-}
-
-/// Puts a gap where the horizontal coordinate goes back: there another run begins.
-fn parted(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    let mut out: Vec<(f64, f64)> = Vec::with_capacity(points.len());
-    for p in points {
-        if out.last().is_some_and(|last| p.0 < last.0) {
-            out.push((f64::NAN, f64::NAN));
-        }
-        out.push(p);
+    if drawn.is_empty() {
+        return Err(PlotError::data(table.path(), format!("no row has a value on both axes: {:?}", panel.only)));
     }
-    out
+    Ok(drawn)
 }

@@ -8,6 +8,7 @@ mod energy_layers;
 pub mod energy_shares;
 pub mod flow_snapshots;
 pub mod force_time;
+pub mod heat_map;
 mod labels;
 mod panels;
 pub mod pressure_profile;

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::curves::{Curve, Curves, Panel};
+use super::heat_map::HeatMap;
 use super::*;
 use crate::output::TableWriter;
 
@@ -252,4 +254,82 @@ fn a_single_row_is_enough() {
     let columns = ["time_s", "kinetic_j", "gravitational_j", "elastic_j", "residual_j"];
     let energy = bench.table("energy.csv", &columns, [vec![0.0, 0.0, 10.0, 0.1, 0.0]]);
     bench.check("one_energy.svg", 100_000, |out| energy_shares::draw(&energy, out));
+}
+
+/// A table with a column of names, as the ladder writes them.
+fn named_table(bench: &Bench) -> PathBuf {
+    let path = bench.directory.path().join("named.csv");
+    let mut text = String::from("shape,cells,points,error,exact,note\n");
+    for (shape, order) in [("linear", 1), ("spline", 2)] {
+        for cells in [8u32, 16, 32] {
+            for points in [1u32, 4] {
+                let error = 1.0 / f64::from(cells * points).powi(order);
+                text += &format!("{shape},{cells},{points},{error},0.001,\n");
+            }
+        }
+    }
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+const BY_SHAPE: [Panel; 2] = [
+    Panel { title: "first panel", only: &[("shape", "linear")] },
+    Panel { title: "second panel", only: &[("shape", "spline")] },
+];
+
+#[test]
+fn curves_are_split_into_panels_and_named_series() {
+    let bench = Bench::new();
+    let table = named_table(&bench);
+    let what = Curves {
+        x: "cells",
+        x_title: "cells",
+        y_title: "error",
+        curves: &[
+            Curve { column: "error", label: "", exact: false },
+            Curve { column: "exact", label: "closed form", exact: true },
+        ],
+        panels: &BY_SHAPE,
+        split: &[("points", "points ")],
+        orders: &[2.0],
+        ..Curves::LOGARITHMIC
+    };
+    let svg = bench.check("curves.svg", 100_000, |out| curves::draw(&table, &what, out));
+    for text in ["first panel", "second panel", "points 1", "points 4", "closed form", "order 2", "10⁻³", "16"] {
+        assert!(svg.contains(text), "no {text:?}");
+    }
+    // One name in the legend for what should come out, whatever is varied; markers for measured points only.
+    assert_eq!(svg.matches("closed form").count(), 1);
+    assert_eq!(svg.matches("<circle").count(), 12);
+    let linear = Curves { logarithmic: false, panels: &[], ..what };
+    let svg = bench.check("linear.svg", 100_000, |out| curves::draw(&table, &linear, out));
+    assert!(svg.contains("points 4") && !svg.contains("10⁻³"));
+}
+
+#[test]
+fn a_heat_map_has_a_cell_for_every_number() {
+    let bench = Bench::new();
+    let table = named_table(&bench);
+    let what = HeatMap {
+        panel: "shape",
+        panels: &[("linear", "Linear functions"), ("spline", "Splines")],
+        x: "cells",
+        x_title: "cells",
+        y: "points",
+        y_title: "points",
+        value: "error",
+        value_title: "error (1)",
+    };
+    let svg = bench.check("heat_map.svg", 100_000, |out| heat_map::draw(&table, &what, out));
+    for text in ["Linear functions", "Splines", "0.031", "error (1)", "10⁻²"] {
+        assert!(svg.contains(text), "no {text:?}");
+    }
+    let absent = HeatMap { panels: &[("cubic", "Cubic")], ..what };
+    let message = heat_map::draw(&table, &absent, bench.directory.path().join("no.svg")).unwrap_err().to_string();
+    assert!(message.contains("no number for cubic"), "{message}");
+    let panels = &[Panel { title: "", only: &[("shape", "cubic")] }];
+    let nothing =
+        Curves { x: "cells", panels, curves: &[Curve { column: "error", label: "", exact: false }], ..Curves::LINEAR };
+    let message = curves::draw(&table, &nothing, bench.directory.path().join("no.svg")).unwrap_err().to_string();
+    assert!(message.contains("no row has a value on both axes"), "{message}");
 }

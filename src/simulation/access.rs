@@ -1,7 +1,8 @@
 //! Reading a simulation, and steering it between steps.
 
 use super::{AccelerationField, Simulation, potential};
-use crate::body::{Body, Particle, Points};
+use crate::band::Band;
+use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
 use crate::constitutive::Law;
@@ -82,19 +83,19 @@ impl Simulation {
     /// Adds a field of accelerations to gravity, as manufactured solutions need, or removes it.
     pub fn set_field(&mut self, field: Option<AccelerationField>) {
         self.field = field;
-        self.bands.iter_mut().for_each(|band| band.field_force.clear());
+        self.bands.iter_mut().for_each(|band| band.nodes.field_force.clear());
     }
 
     /// Moves a boundary at a velocity, m/s. Nodes it reaches are found at the next sort, so keep it slow against h per sort.
     pub fn set_boundary_velocity(&mut self, index: usize, velocity: [f64; 2]) {
         self.boundaries[index].velocity = velocity.into();
-        self.nodes.rebuild(&self.grid, &self.boundaries);
+        self.find_holds();
     }
 
     /// Releases all gates.
     pub fn release_gates(&mut self) {
         self.boundaries.iter_mut().for_each(Boundary::release);
-        self.nodes.rebuild(&self.grid, &self.boundaries);
+        self.find_holds();
     }
 
     /// All points as (body index, point), in a fixed order that changes with sorting.
@@ -106,7 +107,7 @@ impl Simulation {
 
     /// Number of material points.
     pub fn particle_count(&self) -> usize {
-        self.bands.iter().flat_map(|b| &b.points).map(Points::len).sum()
+        self.bands.iter().map(Band::len).sum()
     }
 
     /// Number of active nodes.
@@ -116,12 +117,7 @@ impl Simulation {
 
     /// Bytes held by points, accumulators and nodes.
     pub fn bytes(&self) -> usize {
-        let bands = self.bands.iter().map(|b| {
-            b.points.iter().map(Points::bytes).sum::<usize>()
-                + b.inertia.capacity() * size_of::<[f64; 4]>()
-                + b.force.capacity() * size_of::<[f64; 2]>()
-        });
-        bands.sum::<usize>() + self.grid.bytes()
+        self.bands.iter().map(Band::bytes).sum::<usize>() + self.grid.bytes()
     }
 
     /// What each boundary did in the last step.
@@ -131,7 +127,7 @@ impl Simulation {
 
     /// Contacts of the last step, in the order of the nodes.
     pub fn holds(&self) -> impl Iterator<Item = &Hold> {
-        self.nodes.holds()
+        self.bands.iter().flat_map(|b| &b.nodes.holds)
     }
 
     /// Starts a new ledger now.

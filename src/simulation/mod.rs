@@ -1,21 +1,22 @@
 //! The simulation: bodies, grid and clock. [`Simulation::step`] is the algorithm.
 
-use crate::body::{Body, Particle, Points};
+use crate::band::Band;
+use crate::body::{Body, Points};
 use crate::boundary::Boundary;
-use crate::boundary::nodes::Tally;
+use crate::boundary::nodes::{self, Hold, Tally};
 use crate::constitutive::Law;
 use crate::grid::{ActiveGrid, Lattice};
-use crate::layout::{Band, BandSums, Departed, SortRules, Sorter};
+use crate::layout::{Departed, SortRules, Sorter};
 use crate::ledger::{Ledger, Stock};
-use crate::momentum::{BodyForces, NodeSolver};
+use crate::momentum::{self, BodyForces};
 use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
-use crate::transfer::{self, NodeMap, PointConstants, Reach, Scatter, StressUpdate, VelocityUpdate};
 use failure::CRUSHED;
-use rayon::prelude::*;
 
 mod access;
 mod failure;
 mod scene;
+mod stages;
+mod sweep;
 
 pub use failure::StepFailure;
 pub use scene::{Acceleration, AccelerationField, Numerics, PicShare, Scene, Scheme};
@@ -36,7 +37,7 @@ pub struct Simulation {
 
     bands: Vec<Band>,
     grid: ActiveGrid,
-    nodes: NodeSolver,
+    holds: Vec<Hold>,
     sorter: Sorter,
     departed: Vec<Departed>,
     /// Farthest that any point can have moved since the last sort, m.
@@ -81,7 +82,7 @@ impl Simulation {
             boundaries,
             bands: vec![band],
             grid: ActiveGrid::default(),
-            nodes: NodeSolver::default(),
+            holds: Vec::new(),
             sorter: Sorter::default(),
             departed: Vec::new(),
             drift: 0.0,
@@ -96,41 +97,22 @@ impl Simulation {
         simulation
     }
 
-    /// One time step: Ng et al., Appendix A, with contact on the grid as in their Appendix B.
+    /// One time step: the stages of [`Scheme`], then the books.
     pub fn step(&mut self) -> Result<(), StepFailure> {
         if self.drift > self.lattice.spacing {
             self.sort();
         }
         self.time_step = self.next_time_step();
         let dt = self.time_step.dt;
-        match self.numerics.scheme {
-            Scheme::Usf => {
-                self.particles_to_grid(Scatter::Inertia);
-                self.nodes.old_velocities(&mut self.grid, &self.bands);
-                self.update_stress(StressUpdate { dt, move_after: false });
-                self.particles_to_grid(Scatter::Force);
-                self.solve_momentum(dt);
-                self.grid_to_particles(dt);
-            }
-            Scheme::Usl => {
-                self.particles_to_grid(Scatter::All);
-                self.solve_momentum(dt);
-                self.grid_to_particles(dt);
-                self.update_stress(StressUpdate { dt, move_after: true });
-            }
-            Scheme::Musl => {
-                self.particles_to_grid(Scatter::All);
-                self.solve_momentum(dt);
-                self.grid_to_particles(dt);
-                self.nodes.remapped_velocities(&mut self.grid, &self.bands);
-                self.update_stress(StressUpdate { dt, move_after: true });
-            }
-        }
+        let stages = self.numerics.scheme.stages();
+        let (step, bands) = self.begin(dt);
+        sweep::sweep(stages, bands, &|&stage, before, band| step.run(stage, before, band));
         self.time += dt;
         self.steps += 1;
         for boundary in &mut self.boundaries {
             boundary.advance(dt);
         }
+        self.book_impulses(dt);
         self.close_step(dt)
     }
 
@@ -139,43 +121,18 @@ impl Simulation {
         stable_time_step(&self.bodies, &self.speeds, self.lattice.spacing, n.cfl, n.max_time_step)
     }
 
-    /// p2g: nodal mass, momentum and internal force.
-    fn particles_to_grid(&mut self, what: Scatter) {
-        let map = NodeMap::new(&self.grid);
-        let (bodies, shape, side) = (&self.bodies, self.numerics.shape, self.side_friction);
-        let field = self.field.as_ref().filter(|_| what != Scatter::Inertia);
-        let time = self.time;
-        self.bands.par_iter_mut().with_max_len(1).for_each(|band| {
-            if what != Scatter::Force {
-                band.inertia.fill([0.0; 4]);
-            }
-            if what != Scatter::Inertia {
-                band.force.fill([0.0; 2]);
-            }
-            for (body, points) in bodies.iter().zip(&band.points) {
-                let l = shape.half_width(body.points_per_direction);
-                let reach = Reach { first_node: band.first_node, inertia: &mut band.inertia, force: &mut band.force };
-                transfer::scatter(what, l, &map, constants(body, side), points, reach);
-            }
-            if let Some(AccelerationField(field)) = field {
-                band.field_force.clear();
-                band.field_force.resize(band.force.len(), [0.0; 2]);
-                for (body, points) in bodies.iter().zip(&band.points) {
-                    let l = shape.half_width(body.points_per_direction);
-                    let at = |p: &Particle| field(p, time);
-                    let reach = Reach { first_node: band.first_node, inertia: &mut [], force: &mut band.field_force };
-                    transfer::scatter_field(l, &map, body.point_mass, &at, points, reach);
-                }
-            }
-        });
-    }
-
-    /// Momentum balance and contact at the nodes; books what acted from outside.
-    fn solve_momentum(&mut self, dt: f64) {
-        self.step_tallies.fill(Tally::default());
-        let distributed =
-            self.nodes.solve(&mut self.grid, &self.bands, &self.boundaries, self.forces, dt, &mut self.step_tallies);
+    /// Books what acted from outside.
+    fn book_impulses(&mut self, dt: f64) {
         let ledger = &mut self.ledger;
+        self.step_tallies.fill(Tally::default());
+        for band in &self.bands {
+            for (sum, tally) in self.step_tallies.iter_mut().zip(&band.tallies) {
+                sum.add(tally);
+            }
+            ledger.damping.merge(&band.distributed.damping);
+            ledger.side_walls.merge(&band.distributed.side_walls);
+            ledger.field.merge(&band.distributed.field);
+        }
         for d in 0..2 {
             let impulse = self.mass * self.forces.gravity[d] * dt;
             ledger.gravity[d] += impulse;
@@ -185,57 +142,6 @@ impl Simulation {
             sum.add(tally);
             ledger.impulse_scale += tally.impulse[0].abs() + tally.impulse[1].abs();
         }
-        ledger.damping.merge(&distributed.damping);
-        ledger.side_walls.merge(&distributed.side_walls);
-        ledger.field.merge(&distributed.field);
-    }
-
-    /// g2p: new velocities and displacements; for MUSL also their momentum, back on the grid.
-    fn grid_to_particles(&mut self, dt: f64) {
-        let update = VelocityUpdate {
-            dt,
-            pic: self.numerics.pic.fraction(dt),
-            remap: self.numerics.scheme == Scheme::Musl,
-            move_now: self.numerics.scheme == Scheme::Usf,
-        };
-        let map = NodeMap::new(&self.grid);
-        let (bodies, shape, motion) = (&self.bodies, self.numerics.shape, &self.grid.motion);
-        self.bands.par_iter_mut().with_max_len(1).for_each(|band| {
-            if update.remap {
-                band.force.fill([0.0; 2]);
-            }
-            let mut sums = BandSums::default();
-            for (body, points) in bodies.iter().zip(&mut band.points) {
-                let l = shape.half_width(body.points_per_direction);
-                let constants = constants(body, 0.0);
-                let reach = Reach { first_node: band.first_node, inertia: &mut [], force: &mut band.force };
-                let part = transfer::gather_velocity(l, &map, constants, update, motion, points, reach);
-                sums.kinetic += part.kinetic;
-                sums.pic_loss += part.pic_loss;
-                sums.max_speed = sums.max_speed.max(part.max_speed);
-                sums.max_displacement = sums.max_displacement.max(part.max_displacement);
-            }
-            sums.internal_work = band.sums.internal_work;
-            sums.min_volume_ratio = band.sums.min_volume_ratio;
-            band.sums = sums;
-        });
-    }
-
-    /// Strain increments, stresses, volumes; then the points move.
-    fn update_stress(&mut self, update: StressUpdate) {
-        let map = NodeMap::new(&self.grid);
-        let (bodies, shape, velocity) = (&self.bodies, self.numerics.shape, &self.grid.strain_velocity);
-        self.bands.par_iter_mut().with_max_len(1).for_each(|band| {
-            let (mut work, mut smallest) = (0.0, f64::INFINITY);
-            for (body, points) in bodies.iter().zip(&mut band.points) {
-                let l = shape.half_width(body.points_per_direction);
-                let part = transfer::update_stress(l, body.law, &map, constants(body, 0.0), update, velocity, points);
-                work += part.internal_work;
-                smallest = smallest.min(part.min_volume_ratio);
-            }
-            band.sums.internal_work = work;
-            band.sums.min_volume_ratio = smallest;
-        });
     }
 
     /// Adds up the bands' sums in order, books them, and looks for signs of failure.
@@ -270,8 +176,14 @@ impl Simulation {
             self.book_departure(self.departed[i]);
         }
         self.departed.clear();
-        self.nodes.rebuild(&self.grid, &self.boundaries);
+        self.find_holds();
         self.drift = 0.0;
+    }
+
+    /// Finds what holds each node.
+    fn find_holds(&mut self) {
+        nodes::find_holds(&self.boundaries, &self.grid, &mut self.holds);
+        momentum::distribute_holds(&self.holds, self.boundaries.len(), &mut self.bands);
     }
 
     fn book_departure(&mut self, departed: Departed) {
@@ -307,8 +219,4 @@ impl Simulation {
 /// Gravitational energy per mass at `x`, zero at the origin, J/kg.
 fn potential(gravity: &[f64; 2], x: &[f64; 2]) -> f64 {
     -(gravity[0] * x[0] + gravity[1] * x[1])
-}
-
-fn constants(body: &Body, side_friction: f64) -> PointConstants {
-    PointConstants { mass: body.point_mass, volume: body.point_volume, side_friction }
 }

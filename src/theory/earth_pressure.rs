@@ -41,6 +41,15 @@ impl Wall {
         self.coefficient(-1.0)
     }
 
+    /// Inclination of the plane on which the wedge of the active thrust slides, against the horizontal, rad, for a vertical
+    /// face and a level surface: tan(w - phi) = (sqrt(t (t + c) (1 + d c)) - t) / (1 + d (t + c)) with t = tan(phi),
+    /// c = 1/t, d = tan(delta) (Mueller-Breslau 1906).
+    pub fn active_plane(&self) -> f64 {
+        let (t, d) = (libm::tan(self.friction_angle), libm::tan(self.wall_friction_angle));
+        let c = 1.0 / t;
+        self.friction_angle + libm::atan(((t * (t + c) * (1.0 + d * c)).sqrt() - t) / (1.0 + d * (t + c)))
+    }
+
     fn coefficient(&self, sign: f64) -> f64 {
         let Self { friction_angle: phi, wall_friction_angle: delta, batter: a, surface_slope: b } = *self;
         let root = sin(phi + delta) * sin(phi - sign * b) / (cos(a + sign * delta) * cos(a - b));
@@ -73,6 +82,22 @@ mod tests {
         assert!((wall.coulomb_active() * cos(libm::atan(0.4)) - 0.2651).abs() < 5e-5);
         assert!((jaky(phi) - 0.48496).abs() < 5e-6);
         assert!((rankine_active(phi) - 0.3201).abs() < 5e-5);
+    }
+
+    #[test]
+    fn the_plane_of_the_wedge_has_the_largest_thrust() {
+        for (phi, delta) in [(31f64, 0f64), (31.0, 21.8), (40.0, 15.0)] {
+            let (phi, delta) = (phi.to_radians(), delta.to_radians());
+            let wall = Wall { friction_angle: phi, wall_friction_angle: delta, batter: 0.0, surface_slope: 0.0 };
+            // Thrust over rho g H^2 / 2 of a wedge whose plane is inclined by w: cot(w) sin(w - phi) / cos(w - phi - delta).
+            let thrust = |w: f64| sin(w - phi) / (libm::tan(w) * cos(w - phi - delta));
+            let best = wall.active_plane();
+            assert!((thrust(best) - wall.coulomb_active()).abs() < 1e-12);
+            assert!(thrust(best) > thrust(best + 1e-3) && thrust(best) > thrust(best - 1e-3));
+            if delta == 0.0 {
+                assert!((best.to_degrees() - 60.5).abs() < 1e-9);
+            }
+        }
     }
 
     #[test]

@@ -15,3 +15,4 @@ pub mod order;
 pub mod pic;
 pub mod self_weight;
 pub mod sliding_block;
+pub mod vortex;

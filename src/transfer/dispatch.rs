@@ -5,11 +5,14 @@
 //! function compiled for AVX2 or AVX-512 after the processor has said that it has it.
 #![allow(unsafe_code)]
 
-use super::{NodeMap, PointConstants, Reach, Scatter, StressUpdate, VelocityUpdate, kernels};
+use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
+use crate::band::{BandSums, NodeSum};
 use crate::body::{Particle, Points};
 use crate::constitutive::{AnyLaw, Law};
-use crate::layout::BandSums;
 use crate::shape::{AveragedHat, Hat, Shape1d};
+use crate::vector::Plain;
+#[cfg(target_arch = "x86_64")]
+use crate::vector::{Avx2, Avx512};
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Instruction sets that the loops are compiled for.
@@ -69,11 +72,11 @@ macro_rules! by_vector_unit {
             {
                 #[target_feature(enable = "avx2")]
                 fn avx2<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
-                    kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
+                    kernels::$name::<Avx2, $($gen,)* $($c,)*>($($arg),*)
                 }
                 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
                 fn avx512<$($gen: $bound,)* $(const $c: bool,)*>($($arg: $ty),*) $(-> $ret)? {
-                    kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
+                    kernels::$name::<Avx512, $($gen,)* $($c,)*>($($arg),*)
                 }
                 match vector_unit() {
                     // SAFETY: `detect` has seen that this processor has AVX-512F, DQ and VL.
@@ -83,7 +86,7 @@ macro_rules! by_vector_unit {
                     VectorUnit::Plain => {}
                 }
             }
-            kernels::$name::<$($gen,)* $($c,)*>($($arg),*)
+            kernels::$name::<Plain, $($gen,)* $($c,)*>($($arg),*)
         }
     };
 }
@@ -92,11 +95,11 @@ mod wide {
     use super::*;
 
     by_vector_unit!(scatter, [S: Shape1d], [const INERTIA, const FORCE], (
-        shape: S, map: &NodeMap, constants: PointConstants, points: &Points, reach: Reach,
+        shape: S, map: &NodeMap, constants: PointConstants, points: &Points, sums: &mut [NodeSum],
     ));
     by_vector_unit!(gather_velocity, [S: Shape1d], [const REMAP], (
         shape: S, map: &NodeMap, constants: PointConstants, update: VelocityUpdate, motion: &[[f64; 4]],
-        points: &mut Points, reach: Reach,
+        points: &mut Points, momentum: &mut [[f64; 2]],
     ) -> BandSums);
     by_vector_unit!(update_stress, [S: Shape1d, L: Law], [], (
         shape: S, law: L, map: &NodeMap, constants: PointConstants, update: StressUpdate,
@@ -109,12 +112,12 @@ mod wide {
         map: &NodeMap,
         constants: PointConstants,
         points: &Points,
-        reach: Reach,
+        sums: &mut [NodeSum],
     ) {
         match what {
-            Scatter::All => scatter::<S, true, true>(shape, map, constants, points, reach),
-            Scatter::Inertia => scatter::<S, true, false>(shape, map, constants, points, reach),
-            Scatter::Force => scatter::<S, false, true>(shape, map, constants, points, reach),
+            Scatter::All => scatter::<S, true, true>(shape, map, constants, points, sums),
+            Scatter::Inertia => scatter::<S, true, false>(shape, map, constants, points, sums),
+            Scatter::Force => scatter::<S, false, true>(shape, map, constants, points, sums),
         }
     }
 
@@ -125,12 +128,12 @@ mod wide {
         update: VelocityUpdate,
         motion: &[[f64; 4]],
         points: &mut Points,
-        reach: Reach,
+        momentum: &mut [[f64; 2]],
     ) -> BandSums {
         if update.remap {
-            gather_velocity::<S, true>(shape, map, constants, update, motion, points, reach)
+            gather_velocity::<S, true>(shape, map, constants, update, motion, points, momentum)
         } else {
-            gather_velocity::<S, false>(shape, map, constants, update, motion, points, reach)
+            gather_velocity::<S, false>(shape, map, constants, update, motion, points, momentum)
         }
     }
 
@@ -157,13 +160,13 @@ pub fn scatter(
     map: &NodeMap,
     constants: PointConstants,
     points: &Points,
-    reach: Reach,
+    sums: &mut [NodeSum],
 ) {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::scatter_shape(what, shape, map, constants, points, reach);
+        wide::scatter_shape(what, shape, map, constants, points, sums);
     } else {
-        wide::scatter_shape(what, Hat, map, constants, points, reach);
+        wide::scatter_shape(what, Hat, map, constants, points, sums);
     }
 }
 
@@ -174,16 +177,16 @@ pub fn scatter_field(
     mass: f64,
     acceleration: &dyn Fn(&Particle) -> [f64; 2],
     points: &Points,
-    reach: Reach,
+    force: &mut [[f64; 2]],
 ) {
     if half_width > 0.0 {
-        kernels::scatter_field(AveragedHat::new(half_width), map, mass, acceleration, points, reach);
+        kernels::scatter_field(AveragedHat::new(half_width), map, mass, acceleration, points, force);
     } else {
-        kernels::scatter_field(Hat, map, mass, acceleration, points, reach);
+        kernels::scatter_field(Hat, map, mass, acceleration, points, force);
     }
 }
 
-/// Grid to particle: velocity, displacement, and (MUSL) the momentum mapped back into the force of `reach`.
+/// Grid to particle: velocity, displacement, and (MUSL) the momentum mapped back, added to `momentum`.
 pub fn gather_velocity(
     half_width: f64,
     map: &NodeMap,
@@ -191,13 +194,13 @@ pub fn gather_velocity(
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
-    reach: Reach,
+    momentum: &mut [[f64; 2]],
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::gather_shape(shape, map, constants, update, motion, points, reach)
+        wide::gather_shape(shape, map, constants, update, motion, points, momentum)
     } else {
-        wide::gather_shape(Hat, map, constants, update, motion, points, reach)
+        wide::gather_shape(Hat, map, constants, update, motion, points, momentum)
     }
 }
 

@@ -2,143 +2,156 @@
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
 
-use super::{NodeMap, PointConstants, Reach, StressUpdate, VelocityUpdate};
+use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
+use crate::band::{BandSums, NodeSum};
 use crate::body::{Block, Particle, Points};
 use crate::constitutive::{Increment, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane, floor_to_int};
-use crate::layout::BandSums;
 use crate::shape::{STENCIL, Shape1d};
+use crate::vector::{Pack4, Pack8, Unit};
+
+/// Blocks by which the scatter, the first to touch them in a step, asks for them ahead.
+const AHEAD: usize = 8;
 
 const ZERO: Lane = [0.0; LANES];
 
-/// Stencils of eight points: first node, weights and gradients in each direction.
+/// Stencils of eight points: first node of each column, weights and gradients in each direction.
 struct Stencils {
-    node: [[i32; LANES]; 2],
+    first: [[usize; LANES]; STENCIL],
+    /// Equal for points that touch the same nodes.
+    key: [i64; LANES],
     w: [[Lane; STENCIL]; 2],
     g: [[Lane; STENCIL]; 2],
 }
 
 impl Stencils {
+    /// Made once a loop, since filling it with zeros costs as much as a tenth of the work on a block.
+    const EMPTY: Self =
+        Self { first: [[0; LANES]; STENCIL], key: [0; LANES], w: [[ZERO; STENCIL]; 2], g: [[ZERO; STENCIL]; 2] };
+
     #[inline(always)]
-    fn new<S: Shape1d>(shape: S, map: &NodeMap, block: &Block) -> Self {
-        let mut s = Stencils { node: [[0; LANES]; 2], w: [[ZERO; STENCIL]; 2], g: [[ZERO; STENCIL]; 2] };
+    fn evaluate<S: Shape1d>(&mut self, shape: S, map: &NodeMap, block: &Block) {
+        let s = self;
+        let mut node = [[0; LANES]; 2];
         for d in 0..2 {
             for l in 0..LANES {
                 let u = (block.x[d][l] - map.corner[d]) * map.inverse_spacing - shape.shift();
-                let (node, r) = floor_to_int(u);
+                let (b, r) = floor_to_int(u);
                 let (w, g) = shape.eval(r);
-                s.node[d][l] = node;
+                node[d][l] = b;
                 for k in 0..STENCIL {
                     s.w[d][k][l] = w[k];
                     s.g[d][k][l] = g[k] * map.inverse_spacing;
                 }
             }
         }
-        s
-    }
-
-    /// Whether two lanes touch the same nodes.
-    #[inline(always)]
-    fn same(&self, a: usize, b: usize) -> bool {
-        self.node[0][a] == self.node[0][b] && self.node[1][a] == self.node[1][b]
-    }
-
-    /// Index of the first of the three nodes in stencil column `i` of lane `l`.
-    #[inline(always)]
-    fn first(&self, map: &NodeMap, l: usize, i: usize) -> usize {
-        map.index(self.node[0][l] + i as i32, self.node[1][l])
-    }
-}
-
-/// The stencil is a product of two one-dimensional ones, so sums over its nine nodes are taken along each column first and
-/// then over the three columns, four components at a time.
-#[inline(always)]
-fn add_scaled<const N: usize>(sum: &mut [f64; N], w: f64, v: &[f64; N]) {
-    for k in 0..N {
-        sum[k] += w * v[k];
-    }
-}
-
-#[inline(always)]
-fn scaled<const N: usize>(w: f64, v: [f64; N]) -> [f64; N] {
-    v.map(|x| w * x)
-}
-
-#[inline(always)]
-fn add_three<const N: usize>(nodes: &mut [[f64; N]; STENCIL], sums: &[[f64; N]; STENCIL]) {
-    for j in 0..STENCIL {
-        for k in 0..N {
-            nodes[j][k] += sums[j][k];
+        for l in 0..LANES {
+            s.key[l] = (i64::from(node[0][l]) << 32) ^ i64::from(node[1][l]);
+        }
+        for l in 0..LANES {
+            let first = map.columns(node[0][l], node[1][l]);
+            for i in 0..STENCIL {
+                s.first[i][l] = first[i];
+            }
         }
     }
 }
 
-/// Three nodes of a column, by value of their position in `nodes`.
+/// The `N` numbers at `first` of a flat nodal field, for the three nodes of a stencil column (and a fourth where `N` is more).
 #[inline(always)]
-fn three<T>(nodes: &[T], first: usize) -> &[T; STENCIL] {
-    nodes[first..first + STENCIL].try_into().expect("a slice of three")
+fn at<const N: usize>(field: &[f64], first: usize) -> &[f64; N] {
+    field[first..].first_chunk().expect("a column within reach")
 }
 
 #[inline(always)]
-fn three_mut<T>(nodes: &mut [T], first: usize) -> &mut [T; STENCIL] {
-    (&mut nodes[first..first + STENCIL]).try_into().expect("a slice of three")
+fn at_mut<const N: usize>(field: &mut [f64], first: usize) -> &mut [f64; N] {
+    field[first..].first_chunk_mut().expect("a column within reach")
+}
+
+/// Four numbers of each of eight points, number by number.
+#[inline(always)]
+fn columns<U: Unit>(rows: [U::Pack4; LANES], lanes: &mut [Lane; 4]) {
+    let columns = U::Pack8::columns(rows);
+    for k in 0..4 {
+        columns[k].store(&mut lanes[k]);
+    }
+}
+
+/// Eight numbers of each of eight points, point by point.
+#[inline(always)]
+fn transpose<U: Unit>(lanes: &[Lane; 8], points: &mut [[f64; 8]; LANES]) {
+    let mut packs = [U::Pack8::splat(0.0); LANES];
+    for k in 0..LANES {
+        packs[k] = U::Pack8::load(&lanes[k]);
+    }
+    let packs = U::Pack8::transpose(packs);
+    for l in 0..LANES {
+        packs[l].store(&mut points[l]);
+    }
 }
 
 /// Particle to grid: mass and momentum (`INERTIA`), internal force (`FORCE`).
 #[inline(always)]
-pub fn scatter<S: Shape1d, const INERTIA: bool, const FORCE: bool>(
+pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
     shape: S,
     map: &NodeMap,
     constants: PointConstants,
     points: &Points,
-    reach: Reach,
+    sums: &mut [NodeSum],
 ) {
-    let Reach { first_node, inertia, force } = reach;
-    let m = constants.mass;
-    for (block, n) in points.blocks() {
-        let stencil = Stencils::new(shape, map, block);
-        let (mut xx, mut yy, mut xy, mut side) = (ZERO, ZERO, ZERO, ZERO);
+    let m = if INERTIA { constants.mass } else { 0.0 };
+    let mut stencil = Stencils::EMPTY;
+    // In the layout of NodeSum: gradients along x act on the fifth and sixth number, along y on the last two.
+    let mut carried = [ZERO; 8];
+    let mut by_point = [[0.0; 8]; LANES];
+    for (number, (block, n)) in points.blocks().enumerate() {
+        if let Some(soon) = points.block(number + AHEAD) {
+            U::prefetch(soon);
+        }
+        stencil.evaluate(shape, map, block);
         for l in 0..LANES {
             let volume = constants.volume * block.volume_ratio[l];
-            xx[l] = -volume * block.stress[0][l];
-            yy[l] = -volume * block.stress[1][l];
-            xy[l] = -volume * block.stress[3][l];
-            let pressure = if block.stress[2][l] < 0.0 { -block.stress[2][l] } else { 0.0 };
-            side[l] = volume * constants.side_friction * pressure;
+            if INERTIA {
+                let pressure = if block.stress[2][l] < 0.0 { -block.stress[2][l] } else { 0.0 };
+                carried[0][l] = m;
+                carried[1][l] = m * block.v[0][l];
+                carried[2][l] = m * block.v[1][l];
+                carried[3][l] = volume * constants.side_friction * pressure;
+            }
+            if FORCE {
+                carried[4][l] = -volume * block.stress[0][l];
+                carried[5][l] = -volume * block.stress[3][l];
+                carried[6][l] = carried[5][l];
+                carried[7][l] = -volume * block.stress[1][l];
+            }
         }
+        transpose::<U>(&carried, &mut by_point);
         let mut l = 0;
         while l < n {
             // Sorted points share their stencil with the next few; their sum stays in registers.
             let start = l;
-            let mut new_inertia = [[[0.0; 4]; STENCIL]; STENCIL];
-            let mut new_force = [[[0.0; 2]; STENCIL]; STENCIL];
-            while l < n && stencil.same(start, l) {
-                let carried = [m, m * block.v[0][l], m * block.v[1][l], side[l]];
+            let mut new = [[U::Pack8::splat(0.0); STENCIL]; STENCIL];
+            while l < n && stencil.key[l] == stencil.key[start] {
+                let carried = U::Pack8::load(&by_point[l]);
+                let mut along_y = [carried; STENCIL];
+                for j in 0..STENCIL {
+                    let (w, g) = (stencil.w[1][j][l], stencil.g[1][j][l]);
+                    along_y[j] = U::Pack8::four_two_two(w, w, g);
+                }
                 for i in 0..STENCIL {
-                    let (wx, gx) = (stencil.w[0][i][l], stencil.g[0][i][l]);
-                    let column = scaled(wx, carried);
-                    let along = scaled(gx, [xx[l], xy[l]]);
-                    let across = scaled(wx, [xy[l], yy[l]]);
+                    let (w, g) = (stencil.w[0][i][l], stencil.g[0][i][l]);
+                    let column = U::Pack8::four_two_two(w, g, w).mul(carried);
                     for j in 0..STENCIL {
-                        let (w, g) = (stencil.w[1][j][l], stencil.g[1][j][l]);
-                        if INERTIA {
-                            add_scaled(&mut new_inertia[i][j], w, &column);
-                        }
-                        if FORCE {
-                            add_scaled(&mut new_force[i][j], w, &along);
-                            add_scaled(&mut new_force[i][j], g, &across);
-                        }
+                        new[i][j] = new[i][j].add(along_y[j].mul(column));
                     }
                 }
                 l += 1;
             }
             for i in 0..STENCIL {
-                let first = stencil.first(map, start, i) - first_node;
-                if INERTIA {
-                    add_three(three_mut(inertia, first), &new_inertia[i]);
-                }
-                if FORCE {
-                    add_three(three_mut(force, first), &new_force[i]);
+                let nodes: &mut [NodeSum; STENCIL] =
+                    sums[stencil.first[i][start]..].first_chunk_mut().expect("a column within reach");
+                for j in 0..STENCIL {
+                    U::Pack8::load(&nodes[j].0).add(new[i][j]).store(&mut nodes[j].0);
                 }
             }
         }
@@ -152,18 +165,18 @@ pub fn scatter_field<S: Shape1d>(
     mass: f64,
     acceleration: &dyn Fn(&Particle) -> [f64; 2],
     points: &Points,
-    reach: Reach,
+    force: &mut [[f64; 2]],
 ) {
-    let Reach { first_node, force, .. } = reach;
+    let mut stencil = Stencils::EMPTY;
     for (block, n) in points.blocks() {
-        let stencil = Stencils::new(shape, map, block);
+        stencil.evaluate(shape, map, block);
         for l in 0..n {
             let f = acceleration(&block.get(l)).map(|a| mass * a);
             for i in 0..STENCIL {
-                let column = scaled(stencil.w[0][i][l], f);
-                let first = stencil.first(map, l, i) - first_node;
-                for (j, node) in three_mut(force, first).iter_mut().enumerate() {
-                    add_scaled(node, stencil.w[1][j][l], &column);
+                let nodes = &mut force[stencil.first[i][l]..][..STENCIL];
+                for (j, node) in nodes.iter_mut().enumerate() {
+                    let w = stencil.w[0][i][l] * stencil.w[1][j][l];
+                    *node = [node[0] + w * f[0], node[1] + w * f[1]];
                 }
             }
         }
@@ -172,43 +185,48 @@ pub fn scatter_field<S: Shape1d>(
 
 /// Grid to particle: velocity (FLIP with a share of PIC) and displacement; maps the new momentum back if asked (`REMAP`).
 #[inline(always)]
-pub fn gather_velocity<S: Shape1d, const REMAP: bool>(
+pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
     shape: S,
     map: &NodeMap,
     constants: PointConstants,
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
-    reach: Reach,
+    momentum: &mut [[f64; 2]],
 ) -> BandSums {
-    let Reach { first_node, force: momentum, .. } = reach;
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
+    let (mut stencil, mut seen) = (Stencils::EMPTY, [ZERO; 4]);
     for (block, n) in points.blocks_mut() {
-        let stencil = Stencils::new(shape, map, block);
-        let mut seen = [[0.0; 4]; LANES];
-        for l in 0..n {
-            let mut sum = [0.0; 4];
+        stencil.evaluate(shape, map, block);
+        let mut rows = [U::Pack4::splat(0.0); LANES];
+        for l in 0..LANES {
+            let (mut two, mut third) = (U::Pack8::splat(0.0), U::Pack4::splat(0.0));
             for i in 0..STENCIL {
-                let nodes = three(motion, stencil.first(map, l, i));
-                let mut column = scaled(stencil.w[1][0][l], nodes[0]);
-                add_scaled(&mut column, stencil.w[1][1][l], &nodes[1]);
-                add_scaled(&mut column, stencil.w[1][2][l], &nodes[2]);
-                add_scaled(&mut sum, stencil.w[0][i][l], &column);
+                let column: &[f64; 4 * STENCIL] = at(motion.as_flattened(), 4 * stencil.first[i][l]);
+                let w = stencil.w[0][i][l];
+                let (nodes, node) = (column.first_chunk().expect("two nodes"), column.last_chunk().expect("the third"));
+                two = two.add(U::Pack8::splat(w).mul(U::Pack8::load(nodes)));
+                third = third.add(U::Pack4::splat(w).mul(U::Pack4::load(node)));
             }
-            seen[l] = sum;
+            let [first, second] = two.halves();
+            let w = &stencil.w[1];
+            rows[l] = U::Pack4::splat(w[0][l]).mul(first);
+            rows[l] = rows[l].add(U::Pack4::splat(w[1][l]).mul(second));
+            rows[l] = rows[l].add(U::Pack4::splat(w[2][l]).mul(third));
         }
+        columns::<U>(rows, &mut seen);
         for d in 0..2 {
             for l in 0..LANES {
-                let flip = block.v[d][l] + seen[l][d + 2];
-                let new = flip + update.pic * (seen[l][d] - flip);
+                let flip = block.v[d][l] + seen[d + 2][l];
+                let new = flip + update.pic * (seen[d][l] - flip);
                 let used = if l < n { 1.0 } else { 0.0 };
                 kinetic[l] += used * (new * new);
                 lost[l] += used * (flip * flip - new * new);
                 let size = new.abs();
                 fastest[l] = if size > fastest[l] { size } else { fastest[l] };
                 block.v[d][l] = new;
-                let moved = update.dt * seen[l][d];
+                let moved = update.dt * seen[d][l];
                 let size = moved.abs();
                 farthest[l] = if size > farthest[l] { size } else { farthest[l] };
                 block.dx[d][l] = moved;
@@ -221,20 +239,19 @@ pub fn gather_velocity<S: Shape1d, const REMAP: bool>(
             let mut l = 0;
             while l < n {
                 let start = l;
-                let mut new_momentum = [[[0.0; 2]; STENCIL]; STENCIL];
-                while l < n && stencil.same(start, l) {
-                    let p = [m * block.v[0][l], m * block.v[1][l]];
+                let mut new = [U::Pack8::splat(0.0); STENCIL];
+                while l < n && stencil.key[l] == stencil.key[start] {
+                    let carried = U::Pack8::alternate(m * block.v[0][l], m * block.v[1][l]);
+                    let w = &stencil.w[1];
+                    let column = U::Pack8::pairs(w[0][l], w[1][l], w[2][l]).mul(carried);
                     for i in 0..STENCIL {
-                        let column = scaled(stencil.w[0][i][l], p);
-                        for j in 0..STENCIL {
-                            add_scaled(&mut new_momentum[i][j], stencil.w[1][j][l], &column);
-                        }
+                        new[i] = new[i].add(U::Pack8::splat(stencil.w[0][i][l]).mul(column));
                     }
                     l += 1;
                 }
                 for i in 0..STENCIL {
-                    let first = stencil.first(map, start, i) - first_node;
-                    add_three(three_mut(momentum, first), &new_momentum[i]);
+                    let nodes = at_mut(momentum.as_flattened_mut(), 2 * stencil.first[i][start]);
+                    U::Pack8::load(nodes).add(new[i]).store(nodes);
                 }
             }
         }
@@ -250,7 +267,7 @@ pub fn gather_velocity<S: Shape1d, const REMAP: bool>(
 
 /// Grid to particle: velocity gradient, stress update and volume, then the displacement of the step.
 #[inline(always)]
-pub fn update_stress<S: Shape1d, L: Law>(
+pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
     shape: S,
     law: L,
     map: &NodeMap,
@@ -261,37 +278,31 @@ pub fn update_stress<S: Shape1d, L: Law>(
 ) -> BandSums {
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
+    let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
     for (block, n) in points.blocks_mut() {
-        let stencil = Stencils::new(shape, map, block);
-        // dv_x/dx, dv_y/dx, dv_x/dy, dv_y/dy
-        let mut gradient = [[0.0; 4]; LANES];
-        for l in 0..n {
-            let along_y: [[f64; 4]; STENCIL] = std::array::from_fn(|j| {
-                let (w, g) = (stencil.w[1][j][l], stencil.g[1][j][l]);
-                [w, w, g, g]
-            });
-            let mut sum = [0.0; 4];
+        stencil.evaluate(shape, map, block);
+        let mut rows = [U::Pack4::splat(0.0); LANES];
+        for l in 0..LANES {
+            // Weighted and differentiated along x; both velocities of three nodes.
+            let (mut values, mut slopes) = (U::Pack8::splat(0.0), U::Pack8::splat(0.0));
             for i in 0..STENCIL {
-                let nodes = three(velocity, stencil.first(map, l, i));
-                let mut column = [0.0; 4];
-                for k in 0..4 {
-                    column[k] = along_y[0][k] * nodes[0][k % 2]
-                        + along_y[1][k] * nodes[1][k % 2]
-                        + along_y[2][k] * nodes[2][k % 2];
-                }
-                let (w, g) = (stencil.w[0][i][l], stencil.g[0][i][l]);
-                for (k, along_x) in [g, g, w, w].into_iter().enumerate() {
-                    sum[k] += along_x * column[k];
-                }
+                let column = U::Pack8::load(at(velocity.as_flattened(), 2 * stencil.first[i][l]));
+                values = values.add(U::Pack8::splat(stencil.w[0][i][l]).mul(column));
+                slopes = slopes.add(U::Pack8::splat(stencil.g[0][i][l]).mul(column));
             }
-            gradient[l] = sum;
+            let (w, g) = (&stencil.w[1], &stencil.g[1]);
+            let along_x = slopes.mul(U::Pack8::pairs(w[0][l], w[1][l], w[2][l])).halves();
+            let along_y = values.mul(U::Pack8::pairs(g[0][l], g[1][l], g[2][l])).halves();
+            rows[l] = U::Pack4::fold(along_x[0].add(along_x[1]), along_y[0].add(along_y[1]));
         }
+        // dv_x/dx, dv_y/dx, dv_x/dy, dv_y/dy
+        columns::<U>(rows, &mut gradient);
         for l in 0..LANES {
             let increment = Increment {
-                xx: update.dt * gradient[l][0],
-                yy: update.dt * gradient[l][3],
-                xy: 0.5 * update.dt * (gradient[l][2] + gradient[l][1]),
-                spin: 0.5 * update.dt * (gradient[l][1] - gradient[l][2]),
+                xx: update.dt * gradient[0][l],
+                yy: update.dt * gradient[3][l],
+                xy: 0.5 * update.dt * (gradient[2][l] + gradient[1][l]),
+                spin: 0.5 * update.dt * (gradient[1][l] - gradient[2][l]),
             };
             let mut state = PointState {
                 stress: Stress {

@@ -11,6 +11,7 @@ pub use dispatch::{
 };
 
 use crate::grid::ActiveGrid;
+use crate::shape::STENCIL;
 
 /// What a scatter adds to the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,17 +33,6 @@ pub struct PointConstants {
     pub volume: f64,
     /// Side-wall friction: force per volume and out-of-plane pressure, 2 mu / width, 1/m.
     pub side_friction: f64,
-}
-
-/// The nodes that a band of points can reach, and its private sums there.
-#[derive(Debug)]
-pub struct Reach<'a> {
-    /// Index of the first of them.
-    pub first_node: usize,
-    /// Mass, momentum x and y, side-wall friction capacity.
-    pub inertia: &'a mut [[f64; 4]],
-    /// Force, or remapped momentum.
-    pub force: &'a mut [[f64; 2]],
 }
 
 /// How the velocity of the points follows the grid.
@@ -67,23 +57,30 @@ pub struct StressUpdate {
     pub move_after: bool,
 }
 
-/// Where nodes are in memory.
+/// Where the nodal fields of a band are in memory.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeMap<'a> {
     rows: &'a [i32],
     corner: [f64; 2],
     inverse_spacing: f64,
+    first_node: i32,
 }
 
 impl<'a> NodeMap<'a> {
-    /// The map of a grid.
-    pub fn new(grid: &'a ActiveGrid) -> Self {
-        Self { rows: &grid.row_zero, corner: grid.corner, inverse_spacing: grid.inverse_spacing }
+    /// The map for a band whose fields start at `first_node` of the grid.
+    pub fn new(grid: &'a ActiveGrid, first_node: usize) -> Self {
+        Self {
+            rows: &grid.row_zero,
+            corner: grid.corner,
+            inverse_spacing: grid.inverse_spacing,
+            first_node: first_node as i32,
+        }
     }
 
-    /// Index of the node at column `i` and row `j`, both counted from the grid's corner.
+    /// Indices of the nodes at row `j` of column `i` and of the columns after it, both counted from the grid's corner.
     #[inline(always)]
-    fn index(&self, i: i32, j: i32) -> usize {
-        (self.rows[i as usize] + j) as usize
+    fn columns(&self, i: i32, j: i32) -> [usize; STENCIL] {
+        let rows: &[i32; STENCIL] = self.rows[i as usize..].first_chunk().expect("a stencil within the grid");
+        rows.map(|row| (row + j - self.first_node) as usize)
     }
 }

@@ -1,10 +1,11 @@
 //! The first frequency of the beam, from its free vibration.
 
 use super::beam::{Beam, DEPTH, released};
-use super::{MATERIAL, SHAPES};
+use super::{MATERIAL, SHAPE_NAMES, SHAPES};
 use crate::check::{Check, Expected, Kind, Tolerance};
+use crate::shape::ShapeFunction;
 use crate::theory::cantilever::first_mode;
-use crate::verification::report::table_csv;
+use crate::verification::report::named_csv;
 use crate::verification::{Fault, Outcome, RungFailure};
 use std::f64::consts::PI;
 
@@ -38,6 +39,9 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
     let mut rows = Vec::new();
     for (index, (shape, name)) in SHAPES.into_iter().enumerate() {
         for cells in [4, 8] {
+            if *fault != Fault::NONE && (cells < 8 || shape != ShapeFunction::Ugimp) {
+                continue;
+            }
             let beam = Beam { shape, slenderness: 4, cells, material: MATERIAL };
             let exact = beam.exact().frequency() / (2.0 * PI);
             let [period, energy] = vibrate(&beam, fault)?;
@@ -67,8 +71,7 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
             );
         }
     }
-    let header =
-        ["shape_ugimp_bspline", "cells_through_depth", "frequency_hz", "frequency_exact_hz", "energy_over_initial"];
-    outcome.tables.push(("cantilever_frequency".into(), table_csv(&header, rows)));
+    let header = ["shape", "cells_through_depth", "frequency_hz", "frequency_exact_hz", "energy_over_initial"];
+    outcome.tables.push(("cantilever_frequency".into(), named_csv(&header, &[("shape", &SHAPE_NAMES)], rows)));
     Ok(())
 }

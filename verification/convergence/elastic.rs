@@ -2,7 +2,9 @@
 
 use crate::boundary::{Boundary, Friction};
 use crate::simulation::{PicShare, Simulation};
+use crate::theory::bar;
 use crate::theory::elastic::{bar_speed, confined_speed};
+use crate::theory::self_weight::Column;
 use crate::verification::scene::{Brick, Material, THICKNESS, run_until, scene};
 use crate::verification::{Fault, RungFailure};
 use nalgebra::Vector2;
@@ -65,4 +67,28 @@ pub fn settle(cells: usize, per_cell: usize, fault: &Fault) -> Result<[f64; 2], 
     let force = sim.step_tallies()[1].impulse[0] / (sim.time_step().dt * THICKNESS) * fault.contact_force;
     let centre = sim.particles().map(|(_, p)| p.x[1]).sum::<f64>() / sim.particle_count() as f64;
     Ok([force, 0.5 * HEIGHT - centre])
+}
+
+/// Closed forms of what [`impact`] returns.
+pub fn impact_exact() -> [f64; 2] {
+    let speed = bar_speed(&BAR.elastic, BAR.density);
+    [bar::impact_stress(BAR.density, speed, MACH * speed), 1.0]
+}
+
+/// Closed forms of what [`settle`] returns.
+pub fn settle_exact() -> [f64; 2] {
+    let column =
+        Column { height: HEIGHT, density: COLUMN.density, gravity: GRAVITY, modulus: COLUMN.elastic.confined() };
+    // Vertical stress over the settled height: rho0 g integral of (L - Y) dy, dy = (1 - strain) dY, logarithmic law.
+    let n = 2000;
+    let force = (0..n).map(|i| {
+        let y = |k: f64| HEIGHT * k / f64::from(n);
+        let (a, b) = (y(f64::from(i)), y(f64::from(i + 1)));
+        -column.stress(0.5 * (a + b)) * (column.position(b) - column.position(a))
+    });
+    let sunk = (0..n).map(|i| {
+        let y = HEIGHT * (f64::from(i) + 0.5) / f64::from(n);
+        (y - column.position(y)) / f64::from(n)
+    });
+    [force.sum::<f64>() * COLUMN.elastic.lateral_ratio(), sunk.sum()]
 }

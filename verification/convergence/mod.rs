@@ -5,24 +5,24 @@
 //! whose formula takes unequal ratios). Where values rise and fall, no order is claimed: the table says "oscillatory".
 //!
 //! The bar and the column have closed forms, and the finest grid is judged by them. The flume at 40 degrees has none: its rows
-//! say how much of its results is the grid's. Cells of 25, 20 and 12.5 mm divide 0.1 m, so that back wall, barrier and the
+//! say how much of its results is the grid's, and deviations refer to the finest grid with most points. Cells of 25, 20 and
+//! 12.5 mm divide 0.1 m, so that back wall, barrier and the
 //! crest of the gate lie on nodes. Coarser grids, and 13.3 mm, where the crest lies between nodes and the topmost half cell of
 //! sand is not held, do not settle to the residual that the case asks for. The share of PIC per step is that of the case on
-//! every grid; its viscosity goes with h^2/dt, so with h. Arrival and front speed hardly change. The static force rises with
-//! refinement. The peak over 20 ms falls by a fifth from 20 to 12.5 mm, by more than from 25 to 20: it is not converged on
-//! these grids, has no order, and is not judged. Orders of 3 to 5 for the others exceed that of the scheme: the grids are not
-//! in the asymptotic range, and the index, which rests on the order, is too small there.
+//! every grid; its viscosity goes with h^2/dt, so with h.
+//!
+//! What the flume shows: with one point a cell the static force is a third lower on every grid; from four points on it agrees
+//! within 13 %, which is little more than its scatter. Arrival and front speed change by a few percent at most. The peak over
+//! 20 ms halves its excess from grid to grid, is not converged, and is not judged. Where orders above 3 come out, the grids are
+//! not in the asymptotic range, and the index, which rests on the order, is too small there.
 
 mod elastic;
 
 use super::report::number;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
 use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::theory::bar;
-use crate::theory::elastic::bar_speed;
 use crate::theory::order::Study;
-use crate::theory::self_weight::Column;
-use elastic::{BAR, COLUMN, GRAVITY, HEIGHT, LENGTH, MACH};
+use elastic::{HEIGHT, LENGTH};
 use rayon::prelude::*;
 
 /// The rung.
@@ -36,6 +36,7 @@ pub const RUNG: Rung = Rung {
         (FaultKind::Density, 1.03),
         (FaultKind::ContactForce, 1.03),
     ],
+    under_fault: "bar and column with 4 points a cell",
 };
 
 /// Points per cell and direction.
@@ -52,6 +53,8 @@ struct Series {
     per_cell: usize,
     spacings: Vec<f64>,
     values: Vec<f64>,
+    /// What deviations in the table refer to.
+    reference: f64,
 }
 
 impl Series {
@@ -67,7 +70,9 @@ impl Series {
         let mut text = String::new();
         for (i, (&h, &value)) in self.spacings.iter().zip(&self.values).enumerate() {
             let points = self.per_cell * self.per_cell;
-            text += &format!("{},{},{points},{}", self.quantity, number(h), number(value));
+            let deviation = 100.0 * (value / self.reference - 1.0);
+            let cells = [number(h), points.to_string(), cell(value), cell(deviation)];
+            text += &format!("{},{}", self.quantity, cells.join(","));
             if i + 1 == self.values.len() {
                 let s = self.study();
                 let index = 100.0 * s.index[1];
@@ -87,7 +92,7 @@ fn series(
     names: [&'static str; 2],
     length: f64,
     cells: &[usize],
-    run: Pair,
+    (run, exact): (Pair, [f64; 2]),
     fault: &Fault,
 ) -> Result<Vec<[Series; 2]>, RungFailure> {
     let of = |per_cell: usize| {
@@ -97,6 +102,7 @@ fn series(
             per_cell,
             spacings: cells.iter().map(|&n| length / n as f64).collect(),
             values: values.iter().map(|v| v[k]).collect(),
+            reference: exact[k],
         }))
     };
     // One number of points is enough to notice a fault.
@@ -106,10 +112,17 @@ fn series(
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();
-    let mut table = String::from("quantity,h_m,particles_per_cell,value,trend,order,extrapolate,gci_percent\n");
-    let bars = series(["bar_plateau_pa", "bar_impulse_over_2mv"], LENGTH, &BAR_CELLS, elastic::impact, fault)?;
+    let mut table =
+        String::from("quantity,h_m,particles_per_cell,value,deviation_percent,trend,order,extrapolate,gci_percent\n");
+    let bars = series(
+        ["bar_plateau_pa", "bar_impulse_over_2mv"],
+        LENGTH,
+        &BAR_CELLS,
+        (elastic::impact, elastic::impact_exact()),
+        fault,
+    )?;
     let names = ["column_wall_force_n_per_m", "column_settlement_m"];
-    let columns = series(names, HEIGHT, &COLUMN_CELLS, elastic::settle, fault)?;
+    let columns = series(names, HEIGHT, &COLUMN_CELLS, (elastic::settle, elastic::settle_exact()), fault)?;
     for pair in &bars {
         judge_bar(pair, &mut outcome);
     }
@@ -129,8 +142,7 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
 
 fn judge_bar([plateau, impulse]: &[Series; 2], outcome: &mut Outcome) {
     let points = plateau.per_cell * plateau.per_cell;
-    let speed = bar_speed(&BAR.elastic, BAR.density);
-    let exact = bar::impact_stress(BAR.density, speed, MACH * speed);
+    let exact = plateau.reference;
     outcome.check(
         Check::value(format!("bar, {points} points a cell: plateau, finest grid"), plateau.values[3], exact, "Pa")
             .within(Tolerance::Relative(0.005), "strains of 0.1 %; the front is spread over a few of 200 cells")
@@ -151,24 +163,7 @@ fn judge_bar([plateau, impulse]: &[Series; 2], outcome: &mut Outcome) {
 
 fn judge_column([force, settlement]: &[Series; 2], outcome: &mut Outcome) {
     let points = force.per_cell * force.per_cell;
-    let column =
-        Column { height: HEIGHT, density: COLUMN.density, gravity: GRAVITY, modulus: COLUMN.elastic.confined() };
-    // Vertical stress over the settled height: rho0 g integral of (L - Y) dy, dy = (1 - strain) dY, logarithmic law.
-    let n = 2000;
-    let exact: f64 = (0..n)
-        .map(|i| {
-            let y = |k: f64| HEIGHT * k / f64::from(n);
-            let (a, b) = (y(f64::from(i)), y(f64::from(i + 1)));
-            -column.stress(0.5 * (a + b)) * (column.position(b) - column.position(a))
-        })
-        .sum::<f64>()
-        * COLUMN.elastic.lateral_ratio();
-    let sunk: f64 = (0..n)
-        .map(|i| {
-            let y = HEIGHT * (f64::from(i) + 0.5) / f64::from(n);
-            (y - column.position(y)) / f64::from(n)
-        })
-        .sum();
+    let (exact, sunk) = (force.reference, settlement.reference);
     outcome.check(
         Check::value(
             format!("column, {points} points a cell: force on the wall, finest grid"),
@@ -233,49 +228,103 @@ fn toward(what: &str, series: &Series, exact: f64, outcome: &mut Outcome) {
 }
 
 /// Results of the flume that are read off a run.
-const READ: [(&str, &str); 4] = [
-    ("flume_peak_20ms_n", "N"),
-    ("flume_static_n", "N"),
-    ("flume_arrival_s", "s"),
-    ("flume_front_velocity_at_0.7m_m_per_s", "m/s"),
-];
+const READ: [&str; 4] =
+    ["flume_peak_20ms_n", "flume_static_n", "flume_arrival_s", "flume_front_velocity_at_0.7m_m_per_s"];
+/// Those whose change with the grid is judged. A static force that is locked by friction scatters from run to run by as much
+/// as it changes with the grid, and the peak is not converged: the table has both.
+const JUDGED: [&str; 2] = ["flume_arrival_s", "flume_front_velocity_at_0.7m_m_per_s"];
+
+/// What a run of the flume gives: the results to be read off, and the least and greatest static force in equilibrium, N.
+struct Flowed {
+    read: [f64; 4],
+    limits: [f64; 2],
+}
 
 fn flume(outcome: &mut Outcome) -> Vec<Series> {
-    let results = FLUME.map(|h| {
-        flume_run(h).unwrap_or_else(|e| {
-            println!("flume at {h} m: {e}");
-            [f64::NAN; 4]
-        })
-    });
-    READ.iter()
-        .enumerate()
-        .map(|(k, &(quantity, unit))| {
-            let values: Vec<f64> = results.iter().map(|r| r[k]).collect();
-            let change = (values[1] / values[2] - 1.0).abs();
-            outcome.check(
-                Check::new(format!("{quantity}: on the finest grid"), values[2], Expected::AtLeast(0.0), unit)
-                    .because("a run that breaks down has no result")
-                    .from(Kind::Convergence, "the run completes on every grid"),
-            );
-            if k > 0 {
-                outcome.check(
-                    Check::at_most(format!("{quantity}: change from 20 to 12.5 mm"), change, 0.10, "1")
-                        .because("grids of first order: a change of 10 % leaves 17 % at the most")
-                        .from(Kind::Convergence, "first order in h"),
-                );
-            }
-            Series { quantity, per_cell: 2, spacings: FLUME.to_vec(), values }
-        })
-        .collect()
+    let cases: Vec<(usize, f64)> = POINTS.iter().flat_map(|&p| FLUME.map(|h| (p, h))).collect();
+    let runs: Vec<Result<Flowed, String>> = cases.par_iter().with_max_len(1).map(|&(p, h)| flume_run(p, h)).collect();
+    for ((per_cell, h), run) in cases.iter().zip(&runs) {
+        let points = per_cell * per_cell;
+        match run {
+            Ok(flowed) => at_rest(&format!("flume, {points} points a cell, {h} m"), flowed, outcome),
+            Err(e) => println!("flume, {points} points a cell, {h} m: {e}"),
+        }
+    }
+    outcome.check(
+        Check::value(
+            "flume: runs on three grids with four numbers of points that end with all results",
+            runs.iter().filter(|r| r.as_ref().is_ok_and(|f| f.read.iter().all(|x| x.is_finite()))).count() as f64,
+            cases.len() as f64,
+            "1",
+        )
+        .within(Tolerance::Absolute(0.0), "a count")
+        .from(Kind::Convergence, "a run that breaks down has no result"),
+    );
+    let value = |p: usize, h: usize, k: usize| runs[p * FLUME.len() + h].as_ref().map_or(f64::NAN, |r| r.read[k]);
+    let (last, finest) = (POINTS.len() - 1, FLUME.len() - 1);
+    let mut all = Vec::new();
+    for (k, &quantity) in READ.iter().enumerate() {
+        for (p, &per_cell) in POINTS.iter().enumerate() {
+            let values: Vec<f64> = (0..FLUME.len()).map(|h| value(p, h, k)).collect();
+            judge_flume(quantity, per_cell, &values, outcome);
+            all.push(Series {
+                quantity,
+                per_cell,
+                spacings: FLUME.to_vec(),
+                values,
+                reference: value(last, finest, k),
+            });
+        }
+    }
+    all
+}
+
+/// At rest the force along the flume is between the limits of friction, whatever the grid.
+fn at_rest(what: &str, flowed: &Flowed, outcome: &mut Outcome) {
+    outcome.check(
+        Check::new(
+            format!("{what}: static force within the limits of friction"),
+            flowed.read[1],
+            Expected::Within(flowed.limits[0], flowed.limits[1]),
+            "N",
+        )
+        .within(
+            Tolerance::Relative(0.012),
+            "a run ends at rest when the force is steady to 1 % and what is not balanced is 0.2 % of the weight",
+        )
+        .from(Kind::Analytic, "equilibrium: m g sin -/+ mu N"),
+    );
+}
+
+fn judge_flume(quantity: &str, per_cell: usize, values: &[f64], outcome: &mut Outcome) {
+    let points = per_cell * per_cell;
+    let what = format!("{quantity}, {points} points a cell");
+    if JUDGED.contains(&quantity) {
+        outcome.check(
+            Check::at_most(
+                format!("{what}: change from 20 to 12.5 mm"),
+                (values[1] / values[2] - 1.0).abs(),
+                0.10,
+                "1",
+            )
+            .because("grids of first order: a change of 10 % leaves 17 % at the most")
+            .from(Kind::Convergence, "first order in h"),
+        );
+    }
 }
 
 /// Peak over 20 ms, static force, arrival, velocity of the front at 0.7 m.
-fn flume_run(h: f64) -> Result<[f64; 4], String> {
+fn flume_run(per_cell: usize, h: f64) -> Result<Flowed, String> {
     let mut case = crate::case::parse(CASE, "40deg.toml").map_err(|e| e.to_string())?.case;
     case.grid.spacing_m = h;
+    case.grid.particles_per_cell = (per_cell * per_cell) as u32;
     let (_, _, summary) = crate::run::run_in_memory(&case, &mut |_| true).map_err(|e| e.to_string())?;
     let barrier = summary.barrier.ok_or("no barrier")?;
+    let deposit = summary.deposit.ok_or("no deposit")?;
     let front = summary.front.iter().find(|f| (f.x_m - 0.7).abs() < 1e-9).ok_or("the front does not reach 0.7 m")?;
     let arrival = barrier.arrival_time_s.ok_or("no arrival")?;
-    Ok([barrier.peak_force_20ms_n, barrier.static_force_n, arrival, front.velocity_m_per_s])
+    Ok(Flowed {
+        read: [barrier.peak_force_20ms_n, barrier.static_force_n, arrival, front.velocity_m_per_s],
+        limits: deposit.friction_limits_n,
+    })
 }

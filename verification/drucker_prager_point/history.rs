@@ -1,6 +1,6 @@
 //! What depends on the path: opening and closing, random paths, step size.
 
-use super::super::report::table_csv;
+use super::super::report::named_csv;
 use super::super::scene::Lcg;
 use super::{Fault, Outcome, PHI, SAND, drive, law, strain};
 use crate::check::{Check, Kind, Tolerance};
@@ -72,7 +72,9 @@ fn opening(fault: &Fault, outcome: &mut Outcome) {
             .from(Kind::Analytic, "K e"),
     );
     let header = ["void_tracking", "strain", "pressure_pa", "vertical_pressure_pa", "opened"];
-    outcome.tables.push(("drucker_prager_point_opening".into(), table_csv(&header, rows)));
+    outcome
+        .tables
+        .push(("drucker_prager_point_opening".into(), named_csv(&header, &[("void_tracking", &["off", "on"])], rows)));
 }
 
 /// Elastic strain energy stored by an increment's stress change, C^-1 : dsigma, as (xx, yy, zz, xy).

@@ -18,6 +18,7 @@ pub const RUNG: Rung = Rung {
     title: "One material point: strength on every path, dilatancy, apex, cohesion, opening and closing, Jaumann rate",
     run,
     covers: &[(FaultKind::Friction, 1.02), (FaultKind::Modulus, 1.02)],
+    under_fault: "all",
 };
 
 const SAND: Elastic = Elastic { young: 1e6, poisson: 0.3 };
@@ -35,8 +36,13 @@ struct Case {
 
 /// The solver's law with the fault in its stiffness and in the slope of its cone.
 fn law(cone: Cone, psi: f64, cohesion: f64, poisson: f64, fault: &Fault) -> DruckerPrager {
+    law_at(PHI, cone, psi, cohesion, poisson, fault)
+}
+
+/// The same at another friction angle (rad).
+fn law_at(phi: f64, cone: Cone, psi: f64, cohesion: f64, poisson: f64, fault: &Fault) -> DruckerPrager {
     let elastic = LinearElastic::new(SAND.young * fault.modulus, poisson);
-    let mut law = DruckerPrager::new(elastic, cone, PHI, psi, cohesion, f64::INFINITY, true);
+    let mut law = DruckerPrager::new(elastic, cone, phi, psi, cohesion, f64::INFINITY, true);
     law.friction *= fault.friction;
     if law.friction > 0.0 {
         law.tension_cutoff = law.cohesion / law.friction;

@@ -1,7 +1,7 @@
 //! Strength: meridians, plane strain, simple shear, at rest, cohesion, apex.
 
-use super::super::report::table_csv;
-use super::{Case, Fault, Outcome, PHI, SAND, drive, law, strain};
+use super::super::report::named_csv;
+use super::{Case, Fault, Outcome, PHI, SAND, drive, law, law_at, strain};
 use crate::check::{Check, Kind, Tolerance};
 use crate::constitutive::{Cone, DruckerPrager, Increment, Law, PointState, Stress};
 use crate::theory::drucker_prager as theory;
@@ -90,6 +90,7 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) {
         }
         rows.push(vec![index as f64, q, q_psi, biaxial, expected[0], shear, expected[1], rest, expected[2]]);
     }
+    let names: Vec<&str> = cases().iter().map(|c| c.name).collect();
     let header = [
         "case",
         "q",
@@ -101,20 +102,56 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) {
         "at_rest",
         "at_rest_without_dilatancy",
     ];
-    outcome.tables.push(("drucker_prager_point_strength".into(), table_csv(&header, rows)));
+    outcome.tables.push(("drucker_prager_point_strength".into(), named_csv(&header, &[("case", &names)], rows)));
+    angles(fault, outcome);
     mohr_coulomb(fault, outcome);
     meridians(fault, outcome);
     cohesive(fault, outcome);
 }
 
-/// Compression along y at a constant confining pressure along x, until nothing changes any more.
+/// The friction angle in plane strain that a cone really has, against the one that it was given, without dilatancy.
+fn angles(fault: &Fault, outcome: &mut Outcome) {
+    type Slope = fn(f64) -> f64;
+    let cones: [(&str, Cone, Slope); 4] = [
+        ("outer cone", Cone::TriaxialCompression, theory::outer_slope),
+        ("inner cone", Cone::TriaxialExtension, theory::inner_slope),
+        ("plane-strain cone", Cone::PlaneStrain, libm::sin),
+        ("cone as printed", Cone::AsPrinted, |phi| theory::outer_slope(phi) / 3.0),
+    ];
+    let mut rows = Vec::new();
+    for (index, (name, cone, slope)) in cones.into_iter().enumerate() {
+        for degrees in [20.0f64, 25.0, 31.0, 35.0] {
+            let phi = degrees.to_radians();
+            let mut law = law_at(phi, cone, 0.0, 0.0, 0.3, fault);
+            (law.cohesion, law.tension_cutoff) = (0.0, 0.0);
+            let angle = theory::angle_of_ratio(compressed(&law)).to_degrees();
+            let exact = theory::plane_strain_angle(slope(phi), 0.0).to_degrees();
+            rows.push(vec![index as f64, degrees, angle, exact]);
+            if degrees == 31.0 {
+                outcome.check(
+                    Check::value(format!("{name} given 31 deg: friction angle in plane strain"), angle, exact, "deg")
+                        .within(Tolerance::Absolute(1e-3), ITERATED)
+                        .from(Kind::Analytic, "sin = q at constant volume, Davis 1968"),
+                );
+            }
+        }
+    }
+    let header = ["cone", "friction_angle_deg", "plane_strain_angle_deg", "plane_strain_angle_exact_deg"];
+    let names = cones.map(|c| c.0);
+    outcome.tables.push(("drucker_prager_point_angles".into(), named_csv(&header, &[("cone", &names)], rows)));
+}
+
 fn biaxial(case: &Case, fault: &Fault) -> f64 {
-    let law = cohesionless(case, 0.3, fault);
+    compressed(&cohesionless(case, 0.3, fault))
+}
+
+/// Compression along y at a constant confining pressure along x, until nothing changes any more.
+fn compressed(law: &DruckerPrager) -> f64 {
     let p = 1e3;
     let mut state = PointState { stress: Stress { xx: -p, yy: -p, zz: -p, xy: 0.0 }, ..PointState::default() };
     let mut last = 0.0;
     for _ in 0..8000 {
-        last = drive(&law, &mut state, last, |e| strain(e, -2e-5, 0.0), |s| s.stress.xx + p);
+        last = drive(law, &mut state, last, |e| strain(e, -2e-5, 0.0), |s| s.stress.xx + p);
     }
     state.stress.yy / state.stress.xx
 }
@@ -161,11 +198,18 @@ fn mohr_coulomb(fault: &Fault, outcome: &mut Outcome) {
 
 /// Triaxial stress paths by confined compression and unloading, at a Poisson's ratio low enough for the cone to be met.
 fn meridians(fault: &Fault, outcome: &mut Outcome) {
-    for (name, cone, q, compression, extension) in [
-        ("outer cone", Cone::TriaxialCompression, theory::outer_slope(PHI), Some(31.0), None),
-        ("inner cone", Cone::TriaxialExtension, theory::inner_slope(PHI), None, Some(31.0)),
+    let (outer, inner) = (theory::outer_slope(PHI), theory::inner_slope(PHI));
+    let associated = theory::plane_strain_slope(PHI, theory::plane_strain_potential(PHI));
+    for (name, cone, psi, q, compression, extension) in [
+        ("outer cone", Cone::TriaxialCompression, 0.0, outer, Some(31.0), None),
+        ("outer cone, associated", Cone::TriaxialCompression, PHI, outer, Some(31.0), None),
+        ("inner cone", Cone::TriaxialExtension, 0.0, inner, None, Some(31.0)),
+        ("inner cone, associated", Cone::TriaxialExtension, PHI, inner, None, Some(31.0)),
+        ("plane-strain cone", Cone::PlaneStrain, 0.0, libm::sin(PHI), None, None),
+        ("plane-strain cone, associated", Cone::PlaneStrain, PHI, associated, None, None),
+        ("cone as printed", Cone::AsPrinted, 0.0, outer / 3.0, None, None),
     ] {
-        let law = cohesionless(&Case { name, cone, psi: 0.0 }, 0.2, fault);
+        let law = cohesionless(&Case { name, cone, psi }, 0.2, fault);
         let mut state = PointState::default();
         for _ in 0..50 {
             law.update(&mut state, &strain(0.0, -1e-4, 0.0));

@@ -15,6 +15,7 @@ pub const RUNG: Rung = Rung {
     title: "Linear fields, rigid motion, free fall and momentum to round-off; the same bits for all threads and vectors",
     run,
     covers: &[(FaultKind::Gravity, 1.02), (FaultKind::Modulus, 1.02), (FaultKind::ContactForce, 1.02)],
+    under_fault: "all",
 };
 
 /// Why checks at the level of round-off have the tolerance they have.

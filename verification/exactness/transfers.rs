@@ -3,10 +3,11 @@
 use super::super::scene::{Lcg, Material};
 use super::super::{Fault, Outcome};
 use super::ROUND_OFF;
+use crate::band::Band;
 use crate::body::{Body, Particle, Points};
 use crate::check::{Check, Kind};
 use crate::grid::{ActiveGrid, Lattice};
-use crate::layout::{Band, SortRules, Sorter};
+use crate::layout::{SortRules, Sorter};
 use crate::shape::ShapeFunction;
 use crate::theory::jaumann::turned;
 use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
@@ -82,23 +83,16 @@ impl Bench {
     /// Particle to grid: sums over nodes against sums over points.
     fn scatter(&mut self, worst: &mut Worst) {
         let constants = self.constants();
-        let map = NodeMap::new(&self.grid);
         let positions: Vec<[f64; 2]> = self.grid.nodes().map(|(_, x)| x).collect();
         // Mass, mass x position, force, and the virial sum of force x position (x x, x y, y x, y y), at nodes and at points.
         let (mut at_nodes, mut at_points) = ([0.0; 9], [0.0; 9]);
         let (mut mass_scale, mut force_scale) = (0.0, 0.0);
         for band in &mut self.bands {
-            transfer::scatter(
-                Scatter::All,
-                self.half_width,
-                &map,
-                constants,
-                &band.points[0],
-                transfer::Reach { first_node: band.first_node, inertia: &mut band.inertia, force: &mut band.force },
-            );
-            for (k, (inertia, force)) in band.inertia.iter().zip(&band.force).enumerate() {
+            let map = NodeMap::new(&self.grid, band.first_node);
+            transfer::scatter(Scatter::All, self.half_width, &map, constants, &band.points[0], &mut band.nodes.sums);
+            for (k, sum) in band.nodes.sums.iter().enumerate() {
                 let x = positions[band.first_node + k];
-                let ([m, ..], [fx, fy]) = (*inertia, *force);
+                let (m, [fx, fy]) = (sum.mass(), sum.force());
                 let terms = [m, m * x[0], m * x[1], fx, fy, fx * x[0], fx * x[1], fy * x[0], fy * x[1]];
                 at_nodes.iter_mut().zip(terms).for_each(|(sum, t)| *sum += t);
                 force_scale += fx.abs() + fy.abs();
@@ -119,14 +113,8 @@ impl Bench {
 
     /// Grid to particle with an affine field on the nodes: velocity, volume and stress of every point.
     fn gather(&mut self, fault: &Fault, worst: &mut Worst) {
-        let nodes: Vec<(usize, [f64; 2])> = self.grid.nodes().collect();
-        for (i, x) in nodes {
-            let v = field(x);
-            self.grid.motion[i] = [v[0], v[1], 0.0, 0.0];
-            self.grid.strain_velocity[i] = v;
-        }
+        let velocities: Vec<[f64; 2]> = self.grid.nodes().map(|(_, x)| field(x)).collect();
         let constants = self.constants();
-        let map = NodeMap::new(&self.grid);
         let velocity = VelocityUpdate { dt: DT, pic: 1.0, remap: false, move_now: false };
         let stress = StressUpdate { dt: DT, move_after: false };
         let [xx, xy, yx, yy] = GRADIENT.map(|g| g * DT);
@@ -139,6 +127,12 @@ impl Bench {
         let half = 0.5 * (xx + yy);
         let _ = fault;
         for band in &mut self.bands {
+            let map = NodeMap::new(&self.grid, band.first_node);
+            let nodes = &mut band.nodes;
+            for (k, &v) in velocities[band.first_node..][..nodes.motion.len()].iter().enumerate() {
+                nodes.motion[k] = [v[0], v[1], 0.0, 0.0];
+                nodes.strain_velocity[k] = v;
+            }
             let points = &mut band.points[0];
             for i in 0..points.len() {
                 let mut p = points.iter().nth(i).unwrap_or_default();
@@ -150,9 +144,9 @@ impl Bench {
                 &map,
                 constants,
                 velocity,
-                &self.grid.motion,
+                &nodes.motion,
                 points,
-                transfer::Reach { first_node: band.first_node, inertia: &mut [], force: &mut band.force },
+                &mut nodes.remapped,
             );
             transfer::update_stress(
                 self.half_width,
@@ -160,7 +154,7 @@ impl Bench {
                 &map,
                 constants,
                 stress,
-                &self.grid.strain_velocity,
+                &nodes.strain_velocity,
                 points,
             );
             for p in points.iter() {

@@ -18,8 +18,9 @@
 mod bar;
 mod field;
 mod time;
+mod vortex;
 
-use super::report::table_csv;
+use super::report::named_csv;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
 use crate::check::{Check, Expected, Kind, Tolerance};
 use crate::shape::ShapeFunction;
@@ -30,9 +31,10 @@ use std::f64::consts::PI;
 /// The rung.
 pub const RUNG: Rung = Rung {
     name: "manufactured",
-    title: "A manufactured solution: order in space and time, three shape functions, small and large amplitude; a fixed bar",
+    title: "A manufactured solution: order in space and time, three shape functions, small and large amplitude; a vortex; a fixed bar",
     run,
     covers: &[(FaultKind::Modulus, 1.03), (FaultKind::Density, 1.03)],
+    under_fault: "uGIMP at small amplitude, the vortex at the smaller angle, the fixed bar",
 };
 
 const GRIDS: [usize; 4] = [8, 16, 32, 64];
@@ -44,14 +46,20 @@ const MEDIUM: f64 = 0.02;
 const LARGE: f64 = 0.05;
 const SHAPES: [(ShapeFunction, &str); 3] =
     [(ShapeFunction::Linear, "linear"), (ShapeFunction::Ugimp, "uGIMP"), (ShapeFunction::Bspline, "B-spline")];
+const SHAPE_NAMES: [&str; 3] = ["linear", "uGIMP", "B-spline"];
 const LAW: &str = "manufactured solution of the logarithmic law, theory::manufactured";
 const WALLSTEDT: &str = "Wallstedt and Guilkey 2008; Steffen, Kirby and Berzins 2008";
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();
     let mut rows = Vec::new();
+    // At small amplitude the error is told from the closed form best, and one shape function is enough to notice a fault.
+    let whole = *fault == Fault::NONE;
     for (index, (shape, name)) in SHAPES.into_iter().enumerate() {
         for amplitude in [SMALL, MEDIUM, LARGE] {
+            if !whole && (shape != ShapeFunction::Ugimp || amplitude != SMALL) {
+                continue;
+            }
             let runs = GRIDS
                 .iter()
                 .map(|&cells| fly(&Setting { shape, amplitude, cells, courant: COURANT }, &ENDS, fault))
@@ -86,17 +94,21 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
         }
     }
     let header = [
-        "shape_linear_ugimp_bspline",
+        "shape",
         "amplitude_over_side",
         "ct_over_side",
-        "interior",
+        "place",
         "cells",
         "displacement_error",
         "velocity_error",
         "stress_error",
     ];
-    outcome.tables.push(("manufactured_space".into(), table_csv(&header, rows)));
-    time::run(fault, &mut outcome)?;
+    let names: [(&str, &[&str]); 2] = [("shape", &SHAPE_NAMES), ("place", &["all points", "interior"])];
+    outcome.tables.push(("manufactured_space".into(), named_csv(&header, &names, rows)));
+    if whole {
+        time::run(fault, &mut outcome)?;
+    }
+    vortex::run(fault, &mut outcome)?;
     bar::run(fault, &mut outcome)?;
     Ok(outcome)
 }

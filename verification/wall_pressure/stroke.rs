@@ -4,6 +4,7 @@ use crate::body::Particle;
 use crate::boundary::{Boundary, Friction};
 use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
 use crate::simulation::{PicShare, Simulation};
+use crate::theory::drucker_prager;
 use crate::theory::elastic::confined_speed;
 use crate::verification::scene::{Brick, Material, THICKNESS, points_by_number, scene};
 use crate::verification::{Fault, RungFailure};
@@ -21,6 +22,8 @@ pub const GRAVITY: f64 = 9.81;
 pub struct Setup {
     /// How the cone is matched.
     pub cone: Cone,
+    /// Dilatancy angle, rad.
+    pub dilatancy: f64,
     /// The fill.
     pub fill: Material,
     /// Friction of the wall.
@@ -111,15 +114,16 @@ impl Setup {
     pub fn run(&self, fault: &Fault) -> Result<Stroke, RungFailure> {
         let h = HEIGHT / self.cells as f64;
         let brick = Brick::new([0.0, 0.0], [self.along, self.cells], h);
-        let mut law = DruckerPrager::new(self.fill.linear_elastic(fault), self.cone, PHI, 0.0, 0.0, 0.0, true);
+        let mut law =
+            DruckerPrager::new(self.fill.linear_elastic(fault), self.cone, PHI, self.dilatancy, 0.0, 0.0, true);
         law.friction *= fault.friction;
         let at = Vector2::new;
         let wall = match self.wall {
             Friction::Coulomb(mu) => Friction::Coulomb(mu * fault.friction),
             other => other,
         };
-        // At constant volume the cone's slope is its friction coefficient in simple shear.
-        let base = if self.smooth_base { Friction::Smooth } else { Friction::Coulomb(law.friction) };
+        let shear = drucker_prager::simple_shear_ratio(law.friction, law.dilatancy);
+        let base = if self.smooth_base { Friction::Smooth } else { Friction::Coulomb(shear) };
         let length = h * self.along as f64;
         let boundaries = vec![
             Boundary::plane("wall", at(0.0, 0.0), at(1.0, 0.0), wall),

@@ -1,0 +1,87 @@
+//! What the benchmarks run.
+
+#![allow(dead_code, reason = "no benchmark runs all of them")]
+
+use checkdam::body::{Body, Particle};
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic};
+use checkdam::grid::Lattice;
+use checkdam::run::Experiment;
+use checkdam::shape::ShapeFunction;
+use checkdam::simulation::{Numerics, PicShare, Scene, Scheme, Simulation};
+use std::path::Path;
+
+/// Cell size of the column, m.
+const SPACING: f64 = 0.01;
+/// Extent across the plane, m.
+const THICKNESS: f64 = 0.1;
+/// Points per cell and direction.
+const PER_CELL: usize = 2;
+
+/// Sand without dilatancy at 31 degrees, matched in plane strain.
+pub fn sand() -> DruckerPrager {
+    let elastic = LinearElastic::new(6e6, 0.3);
+    DruckerPrager::new(elastic, Cone::PlaneStrain, 31f64.to_radians(), 0.0, 0.0, 0.0, true)
+}
+
+/// A column of sand of about `points` points, twice as wide as high but no higher than 100 cells, between a wall and a rough
+/// floor, that spreads as it is let go. Steps are measured from here.
+pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation {
+    let rows = ((points as f64 / 8.0).sqrt().round() as usize).min(100);
+    let columns = points / (PER_CELL * PER_CELL * rows);
+    let step = SPACING / PER_CELL as f64;
+    let (width, height) = (columns as f64 * SPACING, rows as f64 * SPACING);
+    let particles = (0..PER_CELL * PER_CELL * rows * columns)
+        .map(|k| {
+            let (i, j) = (k % (PER_CELL * columns), k / (PER_CELL * columns));
+            let x = [(i as f64 + 0.5) * step, (j as f64 + 0.5) * step];
+            let mut p = Particle::at_rest(k as u32, x);
+            p.v = [0.5 * x[0] / width, -0.5 * x[1] / height];
+            p
+        })
+        .collect();
+    let volume = step * step * THICKNESS;
+    let body = Body {
+        name: "sand".into(),
+        law: AnyLaw::DruckerPrager(sand()),
+        point_mass: 1680.0 * volume,
+        point_volume: volume,
+        points_per_direction: PER_CELL,
+        point_spacing: step,
+    };
+    let corner = [0.0, 0.0].into();
+    Simulation::new(Scene {
+        lattice: Lattice { spacing: SPACING, origin: [0.0; 2] },
+        thickness: THICKNESS,
+        domain: [[-1.0, 1e4], [-1.0, 1e4]],
+        bodies: vec![(body, particles)],
+        boundaries: vec![
+            Boundary::plane("floor", corner, [0.0, 1.0].into(), Friction::Coulomb(0.4)),
+            Boundary::plane("wall", corner, [1.0, 0.0].into(), Friction::Smooth),
+        ],
+        gravity: [0.0, -9.81],
+        side_wall_friction: 0.0,
+        numerics: Numerics { scheme, shape, cfl: 0.3, max_time_step: 1.0, pic: PicShare::Fraction(0.01) },
+    })
+}
+
+/// The flume at 40 degrees with cells of `spacing` metres, half a second after release, when all of the sand moves.
+pub fn flume(spacing: f64) -> Simulation {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/flume/40deg.toml");
+    let mut case = checkdam::case::load(&path).expect("the case is valid").case;
+    case.grid.spacing_m = spacing;
+    let mut experiment = Experiment::new(&case);
+    experiment.prepare(&mut |_| true).expect("the sand settles");
+    let mut simulation = experiment.release().clone();
+    while simulation.time() < 0.5 {
+        simulation.step().expect("a step");
+    }
+    simulation
+}
+
+/// Does `steps` steps.
+pub fn run(simulation: &mut Simulation, steps: u64) {
+    for _ in 0..steps {
+        simulation.step().expect("a step");
+    }
+}

@@ -1,0 +1,134 @@
+//! A band: the points of some neighbouring grid columns, and the nodes they reach.
+//!
+//! A band owns the nodes from its first column to the first column of the next band and solves their momentum balance. Its
+//! points reach a few columns further; what they add there is kept apart and handed to the next band, which adds it before its
+//! own. So no two bands write to one place, and sums are taken in the order of the bands whatever thread works on which.
+
+use crate::body::Points;
+use crate::boundary::nodes::{Hold, Tally};
+use crate::momentum::Distributed;
+
+/// What points add to one node: a cache line, and the width in which the scatter works.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C, align(64))]
+pub struct NodeSum(pub [f64; 8]);
+
+impl NodeSum {
+    /// Mass, kg.
+    pub fn mass(&self) -> f64 {
+        self.0[0]
+    }
+
+    /// Momentum, kg m/s.
+    pub fn momentum(&self) -> [f64; 2] {
+        [self.0[1], self.0[2]]
+    }
+
+    /// Side-wall friction capacity, N.
+    pub fn side_friction(&self) -> f64 {
+        self.0[3]
+    }
+
+    /// Internal force, N: from gradients along x and along y, which are kept apart until here.
+    pub fn force(&self) -> [f64; 2] {
+        [self.0[4] + self.0[6], self.0[5] + self.0[7]]
+    }
+}
+
+/// Nodal fields within reach of a band. All but `mass` and `holds` go on past the nodes that the band owns; `remapped` and
+/// `strain_velocity` end with one node more, so that the vectors that read and write three of them at a time may see a fourth.
+#[derive(Debug, Clone, Default)]
+pub struct Nodes {
+    /// What the band's points add.
+    pub sums: Vec<NodeSum>,
+    /// Momentum of the updated points (MUSL), kg m/s.
+    pub remapped: Vec<[f64; 2]>,
+    /// Force of a body-force field, N; empty unless there is one.
+    pub field_force: Vec<[f64; 2]>,
+    /// Mass of the owned nodes, kg.
+    pub mass: Vec<f64>,
+    /// New velocity and its change in this step: v_x, v_y, dv_x, dv_y in m/s.
+    pub motion: Vec<[f64; 4]>,
+    /// Velocity whose gradient strains the material, m/s.
+    pub strain_velocity: Vec<[f64; 2]>,
+    /// Boundaries acting on the owned nodes, in the order of the nodes.
+    pub holds: Vec<Hold>,
+}
+
+impl Nodes {
+    /// Makes room for `owned` nodes and `reach` in all.
+    pub fn resize(&mut self, owned: usize, reach: usize) {
+        self.sums.resize(reach, NodeSum::default());
+        self.remapped.resize(reach + 1, [0.0; 2]);
+        self.field_force.clear();
+        self.mass.resize(owned, 0.0);
+        self.motion.resize(reach, [0.0; 4]);
+        self.strain_velocity.resize(reach + 1, [0.0; 2]);
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.sums.capacity() * size_of::<NodeSum>()
+            + (self.remapped.capacity() + self.field_force.capacity() + self.strain_velocity.capacity())
+                * size_of::<[f64; 2]>()
+            + self.mass.capacity() * size_of::<f64>()
+            + self.motion.capacity() * size_of::<[f64; 4]>()
+            + self.holds.capacity() * size_of::<Hold>()
+    }
+}
+
+/// Points of neighbouring columns, the nodes they reach, and what a step counts there.
+#[derive(Debug, Clone, Default)]
+pub struct Band {
+    /// Points of each body.
+    pub points: Vec<Points>,
+    /// Index of the first node in the active grid.
+    pub first_node: usize,
+    /// Nodal fields.
+    pub nodes: Nodes,
+    /// Sums over the points in this step.
+    pub sums: BandSums,
+    /// What each boundary did to the owned nodes in this step.
+    pub tallies: Vec<Tally>,
+    /// What acted throughout the owned nodes in this step.
+    pub distributed: Distributed,
+}
+
+/// Sums over the points of a band in one step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BandSums {
+    /// Kinetic energy, J. Not finite when any velocity is not.
+    pub kinetic: f64,
+    /// Largest speed component, m/s.
+    pub max_speed: f64,
+    /// Largest displacement component of the step, m.
+    pub max_displacement: f64,
+    /// Smallest volume ratio.
+    pub min_volume_ratio: f64,
+    /// Work of the internal stress, J.
+    pub internal_work: f64,
+    /// Kinetic energy taken by the PIC share of the velocity update, J.
+    pub pic_loss: f64,
+}
+
+impl Band {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.points.iter().map(Points::len).sum()
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Nodes that the band solves.
+    pub fn owned(&self) -> usize {
+        self.nodes.mass.len()
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.points.iter().map(Points::bytes).sum::<usize>() + self.nodes.bytes()
+    }
+}

@@ -1,0 +1,169 @@
+//! The stages of a step, each on one band.
+
+use super::sweep::On;
+use super::{AccelerationField, Scheme, Simulation};
+use crate::band::{Band, BandSums, NodeSum};
+use crate::body::{Body, Particle};
+use crate::boundary::Boundary;
+use crate::grid::ActiveGrid;
+use crate::momentum::{self, BodyForces};
+use crate::shape::ShapeFunction;
+use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+
+/// One stage of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// p2g: nodal mass, momentum and internal force.
+    PointsToGrid(Scatter),
+    /// Nodal velocities of the step's start.
+    OldVelocities,
+    /// Momentum balance and contact at the nodes.
+    Momentum,
+    /// g2p: new velocities and displacements; for MUSL also their momentum, back on the grid.
+    GridToPoints,
+    /// Nodal velocities from the momentum mapped back.
+    RemappedVelocities,
+    /// Strain increments, stresses and volumes; then the points move, unless they have moved.
+    Stress,
+}
+
+impl Scheme {
+    /// The stages of a step: Ng et al., Appendix A, with contact on the grid as in their Appendix B.
+    pub(super) const fn stages(self) -> &'static [(On, Stage)] {
+        use {On::Nodes, On::Points, Stage::*};
+        match self {
+            Scheme::Usf => &[
+                (Points, PointsToGrid(Scatter::Inertia)),
+                (Nodes, OldVelocities),
+                (Points, Stress),
+                (Points, PointsToGrid(Scatter::Force)),
+                (Nodes, Momentum),
+                (Points, GridToPoints),
+            ],
+            Scheme::Usl => {
+                &[(Points, PointsToGrid(Scatter::All)), (Nodes, Momentum), (Points, GridToPoints), (Points, Stress)]
+            }
+            Scheme::Musl => &[
+                (Points, PointsToGrid(Scatter::All)),
+                (Nodes, Momentum),
+                (Points, GridToPoints),
+                (Nodes, RemappedVelocities),
+                (Points, Stress),
+            ],
+        }
+    }
+}
+
+/// What the stages of one step have in common.
+pub(super) struct Step<'a> {
+    grid: &'a ActiveGrid,
+    bodies: &'a [Body],
+    boundaries: &'a [Boundary],
+    shape: ShapeFunction,
+    forces: BodyForces,
+    field: Option<&'a AccelerationField>,
+    side_friction: f64,
+    time: f64,
+    velocity: VelocityUpdate,
+    stress: StressUpdate,
+}
+
+impl Simulation {
+    /// The step of `dt` seconds that begins now, and the bands to do it on.
+    pub(super) fn begin(&mut self, dt: f64) -> (Step<'_>, &mut [Band]) {
+        let scheme = self.numerics.scheme;
+        let step = Step {
+            grid: &self.grid,
+            bodies: &self.bodies,
+            boundaries: &self.boundaries,
+            shape: self.numerics.shape,
+            forces: self.forces,
+            field: self.field.as_ref(),
+            side_friction: self.side_friction,
+            time: self.time,
+            velocity: VelocityUpdate {
+                dt,
+                pic: self.numerics.pic.fraction(dt),
+                remap: scheme == Scheme::Musl,
+                move_now: scheme == Scheme::Usf,
+            },
+            stress: StressUpdate { dt, move_after: scheme != Scheme::Usf },
+        };
+        (step, &mut self.bands)
+    }
+}
+
+impl Step<'_> {
+    /// Does one stage on one band, given the band before it.
+    pub(super) fn run(&self, stage: Stage, before: Option<&mut Band>, band: &mut Band) {
+        match stage {
+            Stage::PointsToGrid(what) => self.points_to_grid(what, band),
+            Stage::OldVelocities => momentum::old_velocities(before, band),
+            Stage::Momentum => momentum::balance(before, band, self.boundaries, self.forces, self.velocity.dt),
+            Stage::GridToPoints => self.grid_to_points(band),
+            Stage::RemappedVelocities => momentum::remapped_velocities(before, band),
+            Stage::Stress => self.update_stress(band),
+        }
+    }
+
+    fn points_to_grid(&self, what: Scatter, band: &mut Band) {
+        let map = NodeMap::new(self.grid, band.first_node);
+        let nodes = &mut band.nodes;
+        if what != Scatter::Force {
+            nodes.sums.fill(NodeSum::default());
+        }
+        for (body, points) in self.bodies.iter().zip(&band.points) {
+            let constants = constants(body, self.side_friction);
+            transfer::scatter(what, self.half_width(body), &map, constants, points, &mut nodes.sums);
+        }
+        let Some(AccelerationField(field)) = self.field.filter(|_| what != Scatter::Inertia) else { return };
+        nodes.field_force.clear();
+        nodes.field_force.resize(nodes.sums.len(), [0.0; 2]);
+        for (body, points) in self.bodies.iter().zip(&band.points) {
+            let at = |p: &Particle| field(p, self.time);
+            transfer::scatter_field(self.half_width(body), &map, body.point_mass, &at, points, &mut nodes.field_force);
+        }
+    }
+
+    fn grid_to_points(&self, band: &mut Band) {
+        let map = NodeMap::new(self.grid, band.first_node);
+        let nodes = &mut band.nodes;
+        if self.velocity.remap {
+            nodes.remapped.fill([0.0; 2]);
+        }
+        let mut sums = BandSums::default();
+        for (body, points) in self.bodies.iter().zip(&mut band.points) {
+            let (l, c) = (self.half_width(body), constants(body, 0.0));
+            let part = transfer::gather_velocity(l, &map, c, self.velocity, &nodes.motion, points, &mut nodes.remapped);
+            sums.kinetic += part.kinetic;
+            sums.pic_loss += part.pic_loss;
+            sums.max_speed = sums.max_speed.max(part.max_speed);
+            sums.max_displacement = sums.max_displacement.max(part.max_displacement);
+        }
+        sums.internal_work = band.sums.internal_work;
+        sums.min_volume_ratio = band.sums.min_volume_ratio;
+        band.sums = sums;
+    }
+
+    fn update_stress(&self, band: &mut Band) {
+        let map = NodeMap::new(self.grid, band.first_node);
+        let velocity = &band.nodes.strain_velocity;
+        let (mut work, mut smallest) = (0.0, f64::INFINITY);
+        for (body, points) in self.bodies.iter().zip(&mut band.points) {
+            let (l, c) = (self.half_width(body), constants(body, 0.0));
+            let part = transfer::update_stress(l, body.law, &map, c, self.stress, velocity, points);
+            work += part.internal_work;
+            smallest = smallest.min(part.min_volume_ratio);
+        }
+        band.sums.internal_work = work;
+        band.sums.min_volume_ratio = smallest;
+    }
+
+    fn half_width(&self, body: &Body) -> f64 {
+        self.shape.half_width(body.points_per_direction)
+    }
+}
+
+fn constants(body: &Body, side_friction: f64) -> PointConstants {
+    PointConstants { mass: body.point_mass, volume: body.point_volume, side_friction }
+}

@@ -1,0 +1,189 @@
+//! Runs the stages of a step over the bands in one sweep, so that a band's points stay in cache from stage to stage.
+//!
+//! A point stage needs the nodes that a band reaches, so the node stage before it must be done here and in the next band; a node
+//! stage needs the sums of this band and the one before. A stage therefore follows the first at a lag of as many bands as there
+//! are node-to-point turns before it, and one sweep from left to right does the whole step.
+//!
+//! Several threads take a part each, and sweep it as far as it does not depend on a neighbouring part; what is left around the
+//! seams follows. Which band is worked on when makes no difference to the numbers, so neither does the number of parts.
+
+use crate::band::Band;
+
+/// Most parts a sweep is divided into.
+const MAX_PARTS: usize = 64;
+/// Bands that make a part worth a thread.
+const PART_BANDS: usize = 4;
+
+/// What a stage works on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum On {
+    /// The points of a band: needs the nodal fields within its reach.
+    Points,
+    /// The nodes that a band owns: needs what this band and the one before it have added up.
+    Nodes,
+}
+
+/// Bands by which a stage follows the first.
+fn lag<S>(stages: &[(On, S)], stage: usize) -> usize {
+    stages[..=stage].windows(2).filter(|w| w[0].0 == On::Nodes && w[1].0 == On::Points).count()
+}
+
+/// Does all stages on all bands; `work` does one of them on one band. Node stages are given the band before it as well.
+pub fn sweep<S: Sync>(
+    stages: &[(On, S)],
+    bands: &mut [Band],
+    work: &(impl Fn(&S, Option<&mut Band>, &mut Band) + Sync),
+) {
+    let threads = rayon::current_num_threads();
+    let longest = stages.len().checked_sub(1).map_or(0, |last| lag(stages, last));
+    let parts = threads.min(bands.len() / PART_BANDS.max(2 * longest)).min(MAX_PARTS);
+    if parts < 2 {
+        return part(stages, bands, [false; 2], work);
+    }
+    // Parts of about as many points each.
+    let points: usize = bands.iter().map(Band::len).sum();
+    let mut seams = [0; MAX_PARTS];
+    let (mut seen, mut band) = (0, 0);
+    for (k, seam) in seams[..parts - 1].iter_mut().enumerate() {
+        let least = band + 2 * longest;
+        let most = bands.len() - (parts - 1 - k) * 2 * longest;
+        while band < most && (band < least || seen * parts < points * (k + 1)) {
+            seen += bands[band].len();
+            band += 1;
+        }
+        *seam = band;
+    }
+    let seams = &seams[..parts - 1];
+    parts_between(stages, bands, seams, 0, [false; 2], work);
+    around_seams(stages, bands, seams, 0, longest, work);
+}
+
+/// Sweeps the parts between seams side by side. `first` is the number of the first of `bands`; `open` says whether other parts
+/// lie before and after them.
+fn parts_between<S: Sync>(
+    stages: &[(On, S)],
+    bands: &mut [Band],
+    seams: &[usize],
+    first: usize,
+    open: [bool; 2],
+    work: &(impl Fn(&S, Option<&mut Band>, &mut Band) + Sync),
+) {
+    let Some(&seam) = seams.get(seams.len() / 2) else {
+        return part(stages, bands, open, work);
+    };
+    let (before, after) = bands.split_at_mut(seam - first);
+    let (seams_before, seams_after) = (&seams[..seams.len() / 2], &seams[seams.len() / 2 + 1..]);
+    rayon::join(
+        || parts_between(stages, before, seams_before, first, [open[0], true], work),
+        || parts_between(stages, after, seams_after, seam, [true, open[1]], work),
+    );
+}
+
+/// Sweeps one part as far as it does not depend on what lies beyond its open ends.
+fn part<S>(stages: &[(On, S)], bands: &mut [Band], open: [bool; 2], work: &impl Fn(&S, Option<&mut Band>, &mut Band)) {
+    let longest = stages.len().checked_sub(1).map_or(0, |last| lag(stages, last));
+    for front in 0..bands.len() + longest {
+        for (number, (on, stage)) in stages.iter().enumerate() {
+            let lag = lag(stages, number);
+            let low = match (open[0], on) {
+                (false, _) => 0,
+                (true, On::Points) => lag,
+                (true, On::Nodes) => lag + 1,
+            };
+            let high = if open[1] { bands.len() - lag } else { bands.len() };
+            if let Some(k) = front.checked_sub(lag).filter(|k| (low..high).contains(k)) {
+                at(bands, k, stage, work);
+            }
+        }
+    }
+}
+
+/// Does what the parts have left on either side of each seam.
+fn around_seams<S: Sync>(
+    stages: &[(On, S)],
+    bands: &mut [Band],
+    seams: &[usize],
+    first: usize,
+    longest: usize,
+    work: &(impl Fn(&S, Option<&mut Band>, &mut Band) + Sync),
+) {
+    let middle = seams.len() / 2;
+    let Some(&seam) = seams.get(middle) else { return };
+    if seams.len() > 1 {
+        let start = seam - longest;
+        let (before, after) = bands.split_at_mut(start - first);
+        rayon::join(
+            || around_seams(stages, before, &seams[..middle], first, longest, work),
+            || around_seams(stages, after, &seams[middle..], start, longest, work),
+        );
+        return;
+    }
+    let seam = seam - first;
+    for (number, (on, stage)) in stages.iter().enumerate() {
+        let lag = lag(stages, number);
+        match on {
+            On::Nodes => (seam - lag..=seam + lag).for_each(|k| at(bands, k, stage, work)),
+            On::Points => {
+                let (before, after) = bands[seam - lag..seam + lag].split_at_mut(lag);
+                // In two halves although it is little, so that no thread falls asleep in between.
+                rayon::join(
+                    || before.iter_mut().for_each(|band| work(stage, None, band)),
+                    || after.iter_mut().for_each(|band| work(stage, None, band)),
+                );
+            }
+        }
+    }
+}
+
+fn at<S>(bands: &mut [Band], k: usize, stage: &S, work: &impl Fn(&S, Option<&mut Band>, &mut Band)) {
+    let (before, rest) = bands.split_at_mut(k);
+    work(stage, before.last_mut(), &mut rest[0]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    const STAGES: &[(On, usize)] =
+        &[(On::Points, 0), (On::Nodes, 1), (On::Points, 2), (On::Nodes, 3), (On::Points, 4), (On::Points, 5)];
+
+    /// Runs a sweep on `bands` bands with `threads` threads and checks that every stage finds done what it needs.
+    fn check(bands: usize, threads: usize) {
+        let mut all: Vec<Band> = (0..bands).map(|k| Band { first_node: k, ..Band::default() }).collect();
+        let done = Mutex::new(vec![[false; 6]; bands]);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            sweep(STAGES, &mut all, &|&stage, before, band| {
+                let k = band.first_node;
+                if STAGES[stage].0 == On::Nodes {
+                    assert_eq!(before.map(|b| b.first_node), k.checked_sub(1), "the band before {k}");
+                }
+                let mut done = done.lock().expect("no panic before");
+                let around =
+                    if STAGES[stage].0 == On::Nodes { k.saturating_sub(1)..k + 1 } else { k..(k + 2).min(bands) };
+                for j in around {
+                    let earlier = if STAGES[stage].0 == On::Points && j > k {
+                        // Of the next band, the node stages only.
+                        (0..stage).filter(|&s| STAGES[s].0 == On::Nodes).all(|s| done[j][s])
+                    } else {
+                        (0..stage).all(|s| done[j][s])
+                    };
+                    assert!(earlier, "stage {stage} on band {k} comes before band {j} is ready");
+                }
+                assert!(!done[k][stage], "stage {stage} twice on band {k}");
+                done[k][stage] = true;
+            });
+        });
+        assert!(done.lock().expect("no panic").iter().flatten().all(|&d| d), "{bands} bands, {threads} threads");
+    }
+
+    #[test]
+    fn every_stage_is_done_once_and_in_order() {
+        for threads in 1..=5 {
+            for bands in [0, 1, 2, 3, 5, 11, 12, 13, 30, 47] {
+                check(bands, threads);
+            }
+        }
+    }
+}
