@@ -13,7 +13,7 @@ fn holds_are_listed_by_node_with_their_place_on_the_boundary() {
     let columns = (0..4).map(|c| Column { start: 4 * c, row: 0, rows: 4 }).collect();
     let mut grid =
         ActiveGrid { corner: [-1.0, -1.0], spacing: 1.0, inverse_spacing: 1.0, columns, ..ActiveGrid::default() };
-    grid.allocate();
+    grid.index_columns();
     let mut holds = holds_at([0.0, 0.0], &boundaries);
     find_holds(&boundaries, &grid, &mut holds);
     let found: Vec<_> = holds.iter().map(|h| (h.node, h.boundary, h.normal, h.along, h.arm)).collect();

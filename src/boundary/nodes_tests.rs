@@ -18,7 +18,7 @@ pub(super) fn holds_at(x: [f64; 2], boundaries: &[Boundary]) -> Vec<Hold> {
         columns: vec![Column { start: 0, row: 0, rows: 1 }],
         ..ActiveGrid::default()
     };
-    grid.allocate();
+    grid.index_columns();
     let mut holds = Vec::new();
     find_holds(boundaries, &grid, &mut holds);
     holds
