@@ -144,3 +144,6 @@ impl EnergyBalance {
             + self.field
     }
 }
+
+#[cfg(test)]
+mod tests;
