@@ -265,3 +265,7 @@ impl Body {
         (self.law.p_wave_modulus() * self.point_volume / self.point_mass).sqrt()
     }
 }
+
+#[cfg(test)]
+#[path = "body_tests.rs"]
+mod tests;

@@ -101,3 +101,44 @@ impl ActiveGrid {
         self.columns.capacity() * size_of::<Column>() + self.row_zero.capacity() * size_of::<i32>()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns at x = 10, 12 and 14 m with 3, 0 and 2 nodes, of which the lowest lie at y = 21 and 17 m.
+    fn grid() -> ActiveGrid {
+        let column = |start, row, rows| Column { start, row, rows };
+        let mut grid = ActiveGrid {
+            corner: [10.0, 17.0],
+            spacing: 2.0,
+            inverse_spacing: 0.5,
+            columns: vec![column(0, 2, 3), column(3, 5, 0), column(3, 0, 2)],
+            row_zero: vec![1; 9],
+            ..ActiveGrid::default()
+        };
+        grid.index_columns();
+        grid
+    }
+
+    #[test]
+    fn nodes_lie_where_the_lattice_has_them() {
+        let lattice = Lattice { spacing: 0.5, origin: [10.0, -3.0] };
+        assert_eq!(lattice.position(4, -2), [12.0, -4.0]);
+        let nodes: Vec<_> = grid().nodes().collect();
+        let expected = [[10.0, 21.0], [10.0, 23.0], [10.0, 25.0], [14.0, 17.0], [14.0, 19.0]];
+        assert_eq!(nodes, expected.into_iter().enumerate().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn columns_know_their_nodes() {
+        let grid = grid();
+        assert_eq!((grid.len(), grid.is_empty()), (5, false));
+        // The index that row 0 of each column would have.
+        assert_eq!(grid.row_zero, [-2, -2, 3]);
+        assert_eq!([0, 1, 2, 3].map(|c| grid.column_start(c)), [0, 3, 3, 5]);
+        let mut none = ActiveGrid::default();
+        none.index_columns();
+        assert_eq!((none.len(), none.is_empty(), none.column_start(0)), (0, true, 0));
+    }
+}

@@ -33,6 +33,7 @@ mod tests {
             let (b, r) = floor_to_int(u);
             assert_eq!(f64::from(b) + r, u);
             assert!((0.0..=1.0).contains(&r), "{u}: {r}");
+            assert!(u == u.floor() || f64::from(b) == u.floor(), "{u}: {b}");
         }
     }
 }

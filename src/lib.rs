@@ -43,6 +43,8 @@ pub mod plot;
 pub mod run;
 pub mod shape;
 pub mod simulation;
+#[cfg(test)]
+mod solver_tests;
 pub mod theory;
 pub mod timestep;
 pub mod transfer;

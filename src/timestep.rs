@@ -42,3 +42,36 @@ pub fn stable_time_step(bodies: &[Body], speeds: &[f64], spacing: f64, cfl: f64,
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constitutive::{AnyLaw, LinearElastic};
+
+    /// A body with a P-wave speed of `c` m/s.
+    fn body(c: f64) -> Body {
+        Body {
+            name: "body".into(),
+            law: AnyLaw::LinearElastic(LinearElastic { bulk: c * c, shear: 0.0 }),
+            point_mass: 2.0,
+            point_volume: 2.0,
+            points_per_direction: 1,
+            point_spacing: 1.0,
+        }
+    }
+
+    #[test]
+    fn nothing_outruns_a_share_of_a_cell_in_a_step() {
+        let bodies = [body(3.0), body(8.0), body(5.0)];
+        let step = |speeds: [f64; 3], maximum| stable_time_step(&bodies, &speeds, 0.5, 0.4, maximum);
+        let expected = |dt, limit, wave_speed, particle_speed| TimeStep { dt, limit, wave_speed, particle_speed };
+        assert_eq!(step([0.0, 2.0, 0.0], 1.0), expected(0.02, TimeStepLimit::Wave(1), 8.0, 2.0));
+        assert_eq!(step([0.0, 0.0, 15.0], 1.0), expected(0.01, TimeStepLimit::Speed(2), 5.0, 15.0));
+        assert_eq!(step([0.0, 8.0, 0.0], 1.0), expected(0.0125, TimeStepLimit::Wave(1), 8.0, 8.0));
+        assert_eq!(step([0.0, 2.0, 0.0], 0.015), expected(0.015, TimeStepLimit::Maximum, 0.0, 0.0));
+        // Of equals the first is named, and the maximum before all.
+        assert_eq!(step([7.0, 2.0, 5.0], 1.0).limit, TimeStepLimit::Speed(0));
+        assert_eq!(step([0.0, 2.0, 0.0], 0.02).limit, TimeStepLimit::Maximum);
+        assert_eq!(stable_time_step(&[], &[], 0.5, 0.4, 0.3), expected(0.3, TimeStepLimit::Maximum, 0.0, 0.0));
+    }
+}

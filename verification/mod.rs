@@ -7,6 +7,8 @@
 
 pub mod cantilever;
 pub mod celerity;
+#[cfg(test)]
+mod climb;
 pub mod collapse;
 pub mod contact;
 pub mod convergence;

@@ -261,3 +261,6 @@ impl Boundary {
         self.free_below == f64::INFINITY
     }
 }
+
+#[cfg(test)]
+mod tests;

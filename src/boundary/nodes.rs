@@ -238,3 +238,11 @@ impl Hold {
         free <= 0.0 || self.along >= free
     }
 }
+
+#[cfg(test)]
+#[path = "nodes_tests.rs"]
+mod tests;
+
+#[cfg(test)]
+#[path = "holds_tests.rs"]
+mod holds_tests;

@@ -158,3 +158,7 @@ impl BarrierGauge {
         self.boundary
     }
 }
+
+#[cfg(test)]
+#[path = "barrier_tests.rs"]
+mod tests;

@@ -184,3 +184,7 @@ pub fn velocity_field(simulation: &Simulation) -> Vec<FieldCell> {
         })
         .collect()
 }
+
+#[cfg(test)]
+#[path = "flow_tests.rs"]
+mod tests;

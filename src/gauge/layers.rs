@@ -48,3 +48,7 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
     }
     force
 }
+
+#[cfg(test)]
+#[path = "layers_tests.rs"]
+mod tests;

@@ -151,3 +151,6 @@ impl EnergyBalance {
             + self.field
     }
 }
+
+#[cfg(test)]
+mod tests;

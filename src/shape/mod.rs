@@ -134,6 +134,16 @@ mod tests {
     }
 
     #[test]
+    fn averaging_boxes_are_as_wide_as_the_particle_domain() {
+        let width = |shape: ShapeFunction, points| 2.0 * shape.half_width(points);
+        for points in [1, 2, 3, 4] {
+            assert_eq!(width(ShapeFunction::Linear, points), 0.0);
+            assert_eq!(width(ShapeFunction::Ugimp, points), 1.0 / points as f64);
+            assert_eq!(width(ShapeFunction::Bspline, points), 1.0);
+        }
+    }
+
+    #[test]
     fn unity_linear_field_and_gradient() {
         for k in 0..400 {
             let u = 2.0 + f64::from(k) * 0.00731;
@@ -143,7 +153,7 @@ mod tests {
                 let x = |i: usize| f64::from(b) + i as f64;
                 assert!((w.iter().sum::<f64>() - 1.0).abs() < 1e-15);
                 assert!(g.iter().sum::<f64>().abs() < 1e-15);
-                assert!((0..3).map(|i| w[i] * x(i)).sum::<f64>() - u < 1e-14);
+                assert!(((0..3).map(|i| w[i] * x(i)).sum::<f64>() - u).abs() < 1e-14);
                 assert!(((0..3).map(|i| g[i] * x(i)).sum::<f64>() - 1.0).abs() < 1e-14);
             }
         }

@@ -1,0 +1,104 @@
+use super::*;
+use crate::constitutive::LinearElastic;
+
+/// A point of which no two numbers are alike.
+fn distinct(id: u32) -> Particle {
+    let n = |k: u32| f64::from(id) * 100.0 + f64::from(k);
+    Particle {
+        id,
+        x: [n(1), n(2)],
+        v: [n(3), n(4)],
+        state: PointState {
+            stress: Stress { xx: n(5), yy: n(6), zz: n(7), xy: n(8) },
+            opened: n(9),
+            plastic_shear: n(10),
+        },
+        volume_ratio: n(11),
+    }
+}
+
+fn points(count: u32) -> Points {
+    let mut points = Points::default();
+    (0..count).for_each(|id| points.push(&distinct(id)));
+    points
+}
+
+#[test]
+fn a_point_at_rest_is_undeformed() {
+    let p = Particle::at_rest(7, [1.0, 2.0]);
+    assert_eq!((p.id, p.x, p.v, p.volume_ratio), (7, [1.0, 2.0], [0.0; 2], 1.0));
+    assert_eq!(p.state, PointState::default());
+    assert_eq!(Particle { v: [-3.0, 4.0], ..p }.speed(), 5.0);
+}
+
+#[test]
+fn what_is_written_is_read_in_every_lane() {
+    let mut block = Block { dx: [[5.0; LANES]; 2], ..Block::default() };
+    for l in 0..LANES {
+        block.set(l, &distinct(l as u32));
+    }
+    for l in 0..LANES {
+        assert_eq!(block.get(l), distinct(l as u32));
+    }
+    assert_eq!(block.dx, [[0.0; LANES]; 2], "a new point has not moved");
+}
+
+#[test]
+fn points_come_back_in_order() {
+    for count in [0, 1, 7, 8, 9, 16, 21] {
+        let points = points(count);
+        assert_eq!((points.len(), points.is_empty()), (count as usize, count == 0));
+        assert!(points.iter().eq((0..count).map(distinct)), "{count}");
+        let counts: Vec<usize> = points.blocks().map(|(_, n)| n).collect();
+        assert_eq!(counts.iter().sum::<usize>(), count as usize);
+        assert_eq!(counts.len(), (count as usize).div_ceil(LANES));
+        assert!(counts.iter().rev().skip(1).all(|&n| n == LANES));
+    }
+}
+
+#[test]
+fn points_can_be_written_in_place() {
+    let mut points = Points::default();
+    points.resize(19);
+    assert_eq!(points.len(), 19);
+    for i in (0..19).rev() {
+        points.set(i, &distinct(i as u32));
+    }
+    assert!(points.iter().eq((0..19).map(distinct)));
+    for (block, n) in points.blocks_mut() {
+        block.x[0][..n].iter_mut().for_each(|x| *x += 1.0);
+    }
+    assert!(points.iter().enumerate().all(|(i, p)| p.x == [distinct(i as u32).x[0] + 1.0, distinct(i as u32).x[1]]));
+    points.clear();
+    assert!(points.is_empty() && points.iter().next().is_none() && points.blocks().next().is_none());
+}
+
+#[test]
+fn padding_copies_the_last_point_and_counts_it_once() {
+    for count in [1u32, 5, 8, 11, 16] {
+        let mut points = points(count);
+        points.pad();
+        assert!(points.iter().eq((0..count).map(distinct)), "{count}");
+        let (last, used) = points.blocks().last().unwrap();
+        for l in used..LANES {
+            assert_eq!(last.get(l), Particle { id: u32::MAX, ..distinct(count - 1) }, "{count}");
+        }
+    }
+    let mut none = Points::default();
+    none.pad();
+    assert!(none.is_empty());
+}
+
+#[test]
+fn wave_speed_is_the_root_of_modulus_over_density() {
+    let body = Body {
+        name: "sand".into(),
+        law: AnyLaw::LinearElastic(LinearElastic { bulk: 5000.0, shear: 3000.0 }),
+        point_mass: 20.0,
+        point_volume: 0.02,
+        points_per_direction: 2,
+        point_spacing: 0.1,
+    };
+    // M = K + 4/3 G = 9 kPa, 1000 kg/m3.
+    assert!((body.p_wave_speed() - 3.0).abs() < 1e-14);
+}
