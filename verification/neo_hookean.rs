@@ -5,7 +5,7 @@
 //! so what it gains or loses adds up from turn to turn; the table shows it beside. Neither law keeps the angular momentum of
 //! the points: grids of lumped mass lose some in every transfer, which goes into motion that the grid does not see.
 
-use super::report::table_csv;
+use super::report::named_csv;
 use super::scene::{Brick, Material, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
 use crate::check::{Check, Kind, Tolerance};
@@ -40,14 +40,9 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
         let mut rows = Vec::new();
         spin(0, AnyLaw::NeoHookean(law(fault)), Some(&mut outcome), &mut rows)?;
         spin(1, RUBBER.law(fault), None, &mut rows)?;
-        let header = [
-            "law_neo_hookean_rate",
-            "turns",
-            "energy_over_initial",
-            "angular_momentum_over_initial",
-            "size_over_initial",
-        ];
-        outcome.tables.push(("neo_hookean_spin".into(), table_csv(&header, rows)));
+        let header = ["law", "turns", "energy_over_initial", "angular_momentum_over_initial", "size_over_initial"];
+        let laws: (&str, &[&str]) = ("law", &["neo-Hookean", "rate form"]);
+        outcome.tables.push(("neo_hookean_spin".into(), named_csv(&header, &[laws], rows)));
     }
     Ok(outcome)
 }

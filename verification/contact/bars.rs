@@ -23,6 +23,11 @@ const SECONDS: [Second; 4] = [
     ("a bar seven times its impedance", Material::new(20e6, 0.0, 2400.0), 1.0),
 ];
 
+/// Names of the second bars.
+pub fn names() -> [&'static str; SECONDS.len()] {
+    SECONDS.map(|s| s.0)
+}
+
 /// What an impact did.
 pub struct Impact {
     /// Mean force in the middle of the first phase over the exact one.

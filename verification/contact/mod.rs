@@ -11,7 +11,7 @@ mod block;
 mod deposit;
 mod scenes;
 
-use super::report::table_csv;
+use super::report::named_csv;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
 use crate::contact::rule::GapRule;
 use scenes::{GAPS, NORMALS, rule};
@@ -30,7 +30,8 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut rows = Vec::new();
     bars::run(fault, &mut outcome, &mut rows)?;
     let header = ["second_bar", "time_over_contact", "force_over_first", "force_exact_over_first"];
-    outcome.tables.push(("contact_bars".into(), table_csv(&header, rows)));
+    let names = bars::names();
+    outcome.tables.push(("contact_bars".into(), named_csv(&header, &[("second_bar", &names)], rows)));
     block::run(fault, &mut outcome)?;
     if *fault == Fault::NONE {
         deposit::run(fault, &mut outcome)?;
@@ -67,8 +68,8 @@ fn options(outcome: &mut Outcome) {
         }
     }
     let header = [
-        "normal_larger_average_regression_face",
-        "gap_approach_positions_displacements_extents",
+        "normal",
+        "gap",
         "bars_force_over_exact",
         "bars_impulse_over_exact",
         "bars_late_steps",
@@ -83,5 +84,7 @@ fn options(outcome: &mut Outcome) {
         "deposit_penetration_cells",
         "deposit_ledger_residual",
     ];
-    outcome.tables.push(("contact_options".into(), table_csv(&header, rows)));
+    let (normals, gaps) = (NORMALS.map(|n| n.0), GAPS.map(|g| g.0));
+    let codes: [(&str, &[&str]); 2] = [("normal", &normals), ("gap", &gaps)];
+    outcome.tables.push(("contact_options".into(), named_csv(&header, &codes, rows)));
 }

@@ -40,8 +40,8 @@ impl Coupling {
             let s = &sides[nodes[node].sides.start + side];
             fields[s.field].bands[s.band].nodes.open[s.index].mass
         };
-        for (k, interface) in interfaces.iter_mut().enumerate() {
-            interface.find_touches(k, fields, shape, dt, nodes, mass, pending);
+        for interface in interfaces.iter_mut() {
+            interface.find_touches(fields, shape, dt, nodes, mass, pending);
         }
         pending.sort_unstable_by_key(|p| (p.node, p.contact));
     }

@@ -88,7 +88,7 @@ pub(super) struct Coupling {
 impl Coupling {
     /// Contacts by `rules` between fields that each hold one body.
     pub fn new(rules: &[ContactRule], fields: &[VelocityField]) -> Self {
-        let interfaces = rules.iter().map(|rule| Interface::new(*rule, fields)).collect();
+        let interfaces = rules.iter().enumerate().map(|(k, rule)| Interface::new(k, *rule, fields)).collect();
         Self { interfaces, stale: true, ..Self::default() }
     }
 

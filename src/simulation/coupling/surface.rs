@@ -31,6 +31,8 @@ struct View {
 /// The contact of two bodies.
 #[derive(Debug, Clone)]
 pub(super) struct Interface {
+    /// Its place among all contacts.
+    number: u32,
     pub rule: ContactRule,
     /// What the bodies did to each other in the last step.
     pub tally: ContactTally,
@@ -47,7 +49,7 @@ pub(super) struct Interface {
 }
 
 impl Interface {
-    pub fn new(rule: ContactRule, fields: &[VelocityField]) -> Self {
+    pub fn new(number: usize, rule: ContactRule, fields: &[VelocityField]) -> Self {
         let of =
             |body: usize| fields.iter().position(|f| f.members == [body]).expect("a field for each body in contact");
         let pair = rule.bodies.map(of);
@@ -70,6 +72,7 @@ impl Interface {
             starts
         });
         Self {
+            number: number as u32,
             rule,
             tally: ContactTally::default(),
             fields: pair,
@@ -146,7 +149,6 @@ impl Interface {
     /// Finds where the bodies touch in this step; `mass` gives the mass of a side of a shared node.
     pub fn find_touches(
         &mut self,
-        contact: usize,
         fields: &[VelocityField],
         shape: ShapeFunction,
         dt: f64,
@@ -194,7 +196,7 @@ impl Interface {
             };
             if touching {
                 let sides = view.sides.map(|s| s as u8);
-                pending.push(Pending { node: view.node as u32, contact: contact as u32, sides, normal, slack });
+                pending.push(Pending { node: view.node as u32, contact: self.number, sides, normal, slack });
             }
         }
     }
