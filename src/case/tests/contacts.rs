@@ -51,7 +51,7 @@ fn what_is_wrong_with_a_contact_is_said() {
         (line(", \"sand\"]", "]"), vec!["contacts[0].bodies", "two names", "name two bodies"]),
         (line("\"sand\"]", "\"fence\"]"), vec!["two different bodies"]),
         (line("0.4", "-0.4"), vec!["contacts[0].friction = -0.4", "friction >= 0"]),
-        (line("friction = 0.4", ""), vec!["missing field `friction`"]),
+        (line("friction = 0.4", ""), vec!["contacts.friction is missing"]),
         (with(&format!("{CONTACT}{CONTACT}")), vec!["contacts[1].bodies", "contacts[0] has the same two bodies"]),
         (
             with(&format!("{CONTACT}structure = \"gate\"\n")),
