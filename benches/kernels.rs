@@ -150,7 +150,7 @@ fn contact(c: &mut Criterion) {
     let mut group = c.benchmark_group("contact with rigid boundaries");
     for (name, boundaries, number) in [("face", vec![floor.clone()], 1), ("corner", vec![floor, wall], 2)] {
         let mut holds = Vec::new();
-        nodes::find_holds(&boundaries, &f.grid, &mut holds);
+        nodes::find_holds(&boundaries, &[0], &f.grid, &mut holds);
         let mut holds: Vec<_> =
             holds.chunk_by(|a, b| a.node == b.node).filter(|h| h.len() == number).map(<[_]>::to_vec).collect();
         let mut tallies = vec![Tally::default(); boundaries.len()];

@@ -53,6 +53,27 @@ pub struct Nodes {
     pub strain_velocity: Vec<[f64; 2]>,
     /// Boundaries acting on the owned nodes, in the order of the nodes.
     pub holds: Vec<Hold>,
+    /// Owned nodes that other velocity fields reach, in their order, counted from the first.
+    pub shared: Vec<u32>,
+    /// What is known of each of them before contact.
+    pub open: Vec<OpenNode>,
+}
+
+/// A node whose momentum balance is done but for boundaries and contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OpenNode {
+    /// Mass, kg; 0 where the field does not reach.
+    pub mass: f64,
+    /// Velocity before the step, m/s.
+    pub old: [f64; 2],
+    /// Velocity that the node would have, m/s.
+    pub free: [f64; 2],
+    /// Impulse of damping, N s.
+    pub damped: [f64; 2],
+    /// Impulse of side walls, N s.
+    pub braked: [f64; 2],
+    /// Impulse of a field of accelerations, N s.
+    pub field: [f64; 2],
 }
 
 impl Nodes {
@@ -64,6 +85,8 @@ impl Nodes {
         self.mass.resize(owned, 0.0);
         self.motion.resize(reach, [0.0; 4]);
         self.strain_velocity.resize(reach + 1, [0.0; 2]);
+        self.shared.clear();
+        self.open.clear();
     }
 
     /// Bytes held.

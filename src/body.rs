@@ -3,7 +3,7 @@
 //! The points of a body share mass, reference volume and law; everything else is stored as structure of arrays inside
 //! [`Block`]s, which the [`crate::layout`] keeps sorted by cell in bands of grid columns.
 
-use crate::constitutive::{AnyLaw, Law, PointState, Stress};
+use crate::constitutive::{AnyLaw, Finger, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane};
 
 /// Eight material points. Fields are parallel arrays.
@@ -88,6 +88,7 @@ impl Block {
                 },
                 opened: self.opened[l],
                 plastic_shear: self.plastic_shear[l],
+                finger: Finger::default(),
             },
             volume_ratio: self.volume_ratio[l],
         }
@@ -112,10 +113,16 @@ impl Block {
     }
 }
 
+/// Left Cauchy-Green tensors of eight points less the identity: xx, yy, xy.
+pub type Fingers = [Lane; 3];
+
 /// Material points of one body, in order, the last block filled up with copies that are never counted.
 #[derive(Debug, Clone, Default)]
 pub struct Points {
     blocks: Vec<Block>,
+    /// Parallel to the blocks, for laws that carry them, and else empty.
+    fingers: Vec<Fingers>,
+    carries_fingers: bool,
     len: usize,
 }
 
@@ -130,21 +137,41 @@ impl Points {
         self.len == 0
     }
 
+    /// No points, for a law that carries left Cauchy-Green tensors or not.
+    pub fn for_law(law: &AnyLaw) -> Self {
+        Self { carries_fingers: law.carries_deformation(), ..Self::default() }
+    }
+
     /// Forgets all points, keeping the memory.
     pub fn clear(&mut self) {
         self.blocks.clear();
+        self.fingers.clear();
         self.len = 0;
     }
 
     /// Makes room for `len` points, to be written with [`Points::set`].
     pub fn resize(&mut self, len: usize) {
         self.blocks.resize_with(len.div_ceil(LANES), Block::default);
+        if self.carries_fingers {
+            self.fingers.resize_with(len.div_ceil(LANES), Fingers::default);
+        }
         self.len = len;
     }
 
     /// Writes point `i`.
     pub fn set(&mut self, i: usize, p: &Particle) {
         self.blocks[i / LANES].set(i % LANES, p);
+        if let Some(f) = self.fingers.get_mut(i / LANES) {
+            let b = &p.state.finger;
+            (f[0][i % LANES], f[1][i % LANES], f[2][i % LANES]) = (b.xx, b.yy, b.xy);
+        }
+    }
+
+    /// Position of point `i`, m.
+    #[inline]
+    pub fn position(&self, i: usize) -> [f64; 2] {
+        let block = &self.blocks[i / LANES];
+        [block.x[0][i % LANES], block.x[1][i % LANES]]
     }
 
     /// Appends a point.
@@ -187,14 +214,31 @@ impl Points {
         self.blocks.iter_mut().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
     }
 
+    /// The same with the left Cauchy-Green tensors, for laws that carry them.
+    #[inline(always)]
+    pub fn blocks_and_fingers_mut(&mut self) -> impl Iterator<Item = (&mut Block, usize, Option<&mut Fingers>)> {
+        let len = self.len;
+        let mut fingers = self.fingers.iter_mut();
+        self.blocks.iter_mut().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES), fingers.next()))
+    }
+
     /// All points in order.
     pub fn iter(&self) -> impl Iterator<Item = Particle> {
-        self.blocks().flat_map(|(b, n)| (0..n).map(|l| b.get(l)))
+        self.blocks().enumerate().flat_map(|(i, (b, n))| {
+            let fingers = self.fingers.get(i);
+            (0..n).map(move |l| {
+                let mut p = b.get(l);
+                if let Some(f) = fingers {
+                    p.state.finger = Finger { xx: f[0][l], yy: f[1][l], xy: f[2][l] };
+                }
+                p
+            })
+        })
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.blocks.capacity() * size_of::<Block>()
+        self.blocks.capacity() * size_of::<Block>() + self.fingers.capacity() * size_of::<Fingers>()
     }
 }
 

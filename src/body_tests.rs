@@ -12,6 +12,7 @@ fn distinct(id: u32) -> Particle {
             stress: Stress { xx: n(5), yy: n(6), zz: n(7), xy: n(8) },
             opened: n(9),
             plastic_shear: n(10),
+            finger: Finger::default(),
         },
         volume_ratio: n(11),
     }
@@ -101,4 +102,31 @@ fn wave_speed_is_the_root_of_modulus_over_density() {
     };
     // M = K + 4/3 G = 9 kPa, 1000 kg/m3.
     assert!((body.p_wave_speed() - 3.0).abs() < 1e-14);
+}
+
+#[test]
+fn deformations_are_kept_for_laws_that_carry_them() {
+    use crate::constitutive::NeoHookean;
+    let deformed = |id: u32| {
+        let n = f64::from(id);
+        let mut p = distinct(id);
+        p.state.finger = Finger { xx: 0.1 + n, yy: 0.2 + n, xy: 0.3 + n };
+        p
+    };
+    for (law, carried) in [
+        (AnyLaw::NeoHookean(NeoHookean::new(1e6, 0.3)), true),
+        (AnyLaw::LinearElastic(LinearElastic::new(1e6, 0.3)), false),
+    ] {
+        let mut points = Points::for_law(&law);
+        (0..11).for_each(|id| points.push(&deformed(id)));
+        for (p, id) in points.iter().zip(0..) {
+            let expected = if carried { deformed(id).state.finger } else { Finger::default() };
+            assert_eq!((p.id, p.state.finger), (id, expected));
+        }
+        let blocks = points.blocks_and_fingers_mut().filter(|(_, _, f)| f.is_some()).count();
+        assert_eq!(blocks, if carried { 2 } else { 0 });
+        points.clear();
+        points.resize(3);
+        assert!(points.iter().all(|p| p.state.finger == Finger::default()), "nothing is left of what was there");
+    }
 }

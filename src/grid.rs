@@ -65,6 +65,21 @@ impl ActiveGrid {
         self.row_zero.extend(self.columns.iter().map(|c| c.start as i32 - c.row));
     }
 
+    /// Column and row of a node, counted from the origin of the lattice.
+    pub fn place(&self, node: usize) -> [i64; 2] {
+        let c = self.columns.partition_point(|c| c.start as usize <= node) - 1;
+        // Columns without rows start where the next one does; the last that starts there holds the node.
+        let column = &self.columns[c];
+        [self.first[0] + c as i64, self.first[1] + i64::from(column.row) + (node - column.start as usize) as i64]
+    }
+
+    /// The node at a column and row counted from the origin of the lattice, if it is active.
+    pub fn find(&self, place: [i64; 2]) -> Option<usize> {
+        let column = self.columns.get(usize::try_from(place[0] - self.first[0]).ok()?)?;
+        let row = place[1] - self.first[1] - i64::from(column.row);
+        (0..i64::from(column.rows)).contains(&row).then(|| column.start as usize + row as usize)
+    }
+
     /// First node index of column `c`, or the number of nodes past the last column.
     pub fn column_start(&self, c: usize) -> usize {
         self.columns.get(c).map_or(self.len(), |column| column.start as usize)

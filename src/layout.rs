@@ -80,7 +80,7 @@ impl Sorter {
         }
         self.find_cells(rules);
         self.lay_out_grid(rules.lattice, grid);
-        self.fill_bands(bodies, bands, grid);
+        self.fill_bands(rules.bodies, bands, grid);
     }
 
     /// First stencil node of every point, counted from the lower left of the domain.
@@ -151,7 +151,7 @@ impl Sorter {
     }
 
     /// Counting sort by (column, row) of the stencil's first node, then a cut into bands.
-    fn fill_bands(&mut self, bodies: usize, bands: &mut Vec<Band>, grid: &ActiveGrid) {
+    fn fill_bands(&mut self, bodies: &[Body], bands: &mut Vec<Band>, grid: &ActiveGrid) {
         let base_columns = self.base_rows.len();
         let total: usize = self.all.iter().map(Vec::len).sum();
         self.counts.clear();
@@ -182,7 +182,7 @@ impl Sorter {
 
         bands.resize_with(cuts.len() - 1, Band::default);
         for (band, cut) in bands.iter_mut().zip(cuts.windows(2)) {
-            band.points.resize_with(bodies, Points::default);
+            band.points.extend(bodies[band.points.len()..].iter().map(|b| Points::for_law(&b.law)));
             band.points.iter_mut().for_each(Points::clear);
             band.first_node = grid.column_start(cut[0]);
             // Columns cut[0] .. cut[1] + reach: base column c of the sort is column c + DRIFT of the grid.
@@ -191,7 +191,7 @@ impl Sorter {
             band.nodes.resize(owned, reach);
             band.sums = BandSums::default();
         }
-        for body in 0..bodies {
+        for body in 0..bodies.len() {
             self.place(body, &cuts, bands, grid);
         }
         self.cuts = cuts;

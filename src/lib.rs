@@ -31,6 +31,7 @@ pub mod boundary;
 pub mod case;
 pub mod check;
 pub mod constitutive;
+pub mod contact;
 pub mod gauge;
 pub mod grid;
 pub mod lanes;

@@ -3,7 +3,7 @@
 //! A node near the left edge of a band is also reached by points of the band before: their sum comes first, then the band's own.
 //! What the band before needs to see of the result is copied back into its reach.
 
-use crate::band::{Band, NodeSum, Nodes};
+use crate::band::{Band, NodeSum, Nodes, OpenNode};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Hold, Tally};
 
@@ -143,14 +143,29 @@ fn project(band: &mut Band) {
     }
 }
 
-/// Momentum balance of every node and its contact with the boundaries: v = v + dt (f/m + g), then drags, then contact.
-pub fn balance(mut before: Option<&mut Band>, band: &mut Band, boundaries: &[Boundary], forces: BodyForces, dt: f64) {
+/// Momentum balance of every node and its contact with the boundaries: v = v + dt (f/m + g), then drags, then contact. Nodes that
+/// other velocity fields reach are left open.
+pub fn balance(before: Option<&mut Band>, band: &mut Band, boundaries: &[Boundary], forces: BodyForces, dt: f64) {
+    if band.nodes.shared.is_empty() {
+        balance_nodes::<false>(before, band, boundaries, forces, dt);
+    } else {
+        balance_nodes::<true>(before, band, boundaries, forces, dt);
+    }
+}
+
+fn balance_nodes<const SHARED: bool>(
+    mut before: Option<&mut Band>,
+    band: &mut Band,
+    boundaries: &[Boundary],
+    forces: BodyForces,
+    dt: f64,
+) {
     band.tallies.fill(Tally::default());
     band.distributed = Distributed::default();
     sum_field(before.as_deref(), &mut band.nodes);
     let sums = tail(before.as_deref(), |n| &n.sums);
     let nodes = &mut band.nodes;
-    let mut next_hold = 0;
+    let (mut next_hold, mut next_shared) = (0, 0);
     for i in 0..nodes.mass.len() {
         let sum = total(sums, &nodes.sums, i);
         let m = sum.mass();
@@ -159,7 +174,12 @@ pub fn balance(mut before: Option<&mut Band>, band: &mut Band, boundaries: &[Bou
         while nodes.holds.get(next_hold).is_some_and(|h| h.node as usize == band.first_node + i) {
             next_hold += 1;
         }
+        let open = SHARED && nodes.shared.get(next_shared).is_some_and(|&s| s as usize == i);
+        next_shared += usize::from(open);
         if m <= 0.0 {
+            if open {
+                nodes.open[next_shared - 1] = OpenNode::default();
+            }
             nodes.motion[i] = [0.0; 4];
             nodes.strain_velocity[i] = [0.0; 2];
             continue;
@@ -188,6 +208,11 @@ pub fn balance(mut before: Option<&mut Band>, band: &mut Band, boundaries: &[Bou
             braked = [-share * m * v[0], -share * m * v[1]];
             v = [v[0] * (1.0 - share), v[1] * (1.0 - share)];
         }
+        if open {
+            let field = field.map_or([0.0; 2], |f| [f[0] * dt, f[1] * dt]);
+            nodes.open[next_shared - 1] = OpenNode { mass: m, old, free: v, damped, braked, field };
+            continue;
+        }
         if next_hold > first_hold {
             let holds = &mut nodes.holds[first_hold..next_hold];
             nodes::solve(holds, boundaries, m, old, &mut v, &mut band.tallies);
@@ -209,6 +234,35 @@ pub fn balance(mut before: Option<&mut Band>, band: &mut Band, boundaries: &[Bou
         let owned = before.owned();
         hand_back(&band.nodes.motion, owned, &mut before.nodes.motion);
         hand_back(&band.nodes.strain_velocity, owned, &mut before.nodes.strain_velocity);
+    }
+}
+
+/// Gives an open node its velocity: books the drags, and lets both bands that reach the node see how it moves. `node` counts
+/// from the band's first, `index` is its place among the open ones.
+pub fn close(before: Option<&mut Band>, band: &mut Band, node: usize, index: usize, v: [f64; 2]) {
+    let open = band.nodes.open[index];
+    let mean = [0.5 * (open.old[0] + v[0]), 0.5 * (open.old[1] + v[1])];
+    band.distributed.damping.add(open.damped, mean);
+    band.distributed.side_walls.add(open.braked, mean);
+    band.distributed.field.add(open.field, mean);
+    let motion = [v[0], v[1], v[0] - open.old[0], v[1] - open.old[1]];
+    band.nodes.motion[node] = motion;
+    if let Some(before) = before {
+        let past = before.owned() + node;
+        if let Some(seen) = before.nodes.motion.get_mut(past) {
+            *seen = motion;
+        }
+    }
+}
+
+/// Sets the velocity that strains the material at one node, for both bands that reach it.
+pub fn set_strain_velocity(before: Option<&mut Band>, band: &mut Band, node: usize, v: [f64; 2]) {
+    band.nodes.strain_velocity[node] = v;
+    if let Some(before) = before {
+        let past = before.owned() + node;
+        if let Some(seen) = before.nodes.strain_velocity.get_mut(past) {
+            *seen = v;
+        }
     }
 }
 

@@ -33,6 +33,8 @@ climb!(
     earth_pressure,
     manufactured,
     cantilever,
+    neo_hookean,
+    contact,
     wall_pressure,
     collapse,
     convergence

@@ -72,6 +72,37 @@ pub const FIGURES: &[Figure] = &[
         },
     ),
     curves(
+        "neo_hookean",
+        "neo_hookean_spin",
+        "neo_hookean_spin_plot",
+        Curves {
+            x: "turns",
+            x_title: "turns",
+            y_title: "over the initial value",
+            curves: &[measured("energy_over_initial", "energy"), measured("size_over_initial", "size")],
+            split: &[("law", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "contact",
+        "contact_bars",
+        "contact_bars_plot",
+        Curves {
+            x: "time_over_contact",
+            x_title: "time over that of the contact",
+            y_title: "force over the first exact one",
+            curves: &[measured("force_over_first", ""), exact("force_exact_over_first", "exact")],
+            panels: &[
+                panel("an equal bar", &[("second_bar", "an equal bar")]),
+                panel("twice as long", &[("second_bar", "a bar twice as long")]),
+                panel("half the impedance", &[("second_bar", "a bar of half its impedance")]),
+                panel("seven times the impedance", &[("second_bar", "a bar seven times its impedance")]),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
         "self_weight",
         "self_weight_profile",
         "self_weight_profile_plot",

@@ -10,6 +10,7 @@ pub mod celerity;
 #[cfg(test)]
 mod climb;
 pub mod collapse;
+pub mod contact;
 pub mod convergence;
 pub mod drucker_prager_point;
 pub mod earth_pressure;
@@ -18,6 +19,7 @@ pub mod exactness;
 pub mod fault;
 pub mod figures;
 pub mod manufactured;
+pub mod neo_hookean;
 pub mod report;
 pub mod scene;
 pub mod self_weight;
@@ -101,6 +103,8 @@ pub const RUNGS: &[Rung] = &[
     earth_pressure::RUNG,
     manufactured::RUNG,
     cantilever::RUNG,
+    neo_hookean::RUNG,
+    contact::RUNG,
     wall_pressure::RUNG,
     collapse::RUNG,
     convergence::RUNG,

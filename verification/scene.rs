@@ -97,6 +97,7 @@ pub fn scene(brick: &Brick, law: AnyLaw, density: f64, points: Vec<Particle>, bo
         bodies: vec![(brick.body(law, density), points)],
         boundaries,
         gravity: [0.0, 0.0],
+        contacts: vec![],
         side_wall_friction: 0.0,
         numerics: Numerics {
             scheme: Scheme::Musl,

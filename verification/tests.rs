@@ -94,6 +94,8 @@ ladder!(
     earth_pressure,
     manufactured,
     cantilever,
+    neo_hookean,
+    contact,
     wall_pressure,
     collapse,
     convergence

@@ -60,6 +60,7 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
             Boundary::plane("wall", corner, [1.0, 0.0].into(), Friction::Smooth),
         ],
         gravity: [0.0, -9.81],
+        contacts: vec![],
         side_wall_friction: 0.0,
         numerics: Numerics { scheme, shape, cfl: 0.3, max_time_step: 1.0, pic: PicShare::Fraction(0.01) },
     })

@@ -15,7 +15,7 @@ fn holds_are_listed_by_node_with_their_place_on_the_boundary() {
         ActiveGrid { corner: [-1.0, -1.0], spacing: 1.0, inverse_spacing: 1.0, columns, ..ActiveGrid::default() };
     grid.index_columns();
     let mut holds = holds_at([0.0, 0.0], &boundaries);
-    find_holds(&boundaries, &grid, &mut holds);
+    find_holds(&boundaries, &[0], &grid, &mut holds);
     let found: Vec<_> = holds.iter().map(|h| (h.node, h.boundary, h.normal, h.along, h.arm)).collect();
     let mut expected = Vec::new();
     for (c, x) in [-1.0, 0.0, 1.0, 2.0].into_iter().enumerate() {

@@ -79,6 +79,8 @@ pub struct Boundary {
     pub tangent: Vector2<f64>,
     /// What resists sliding.
     pub friction: Friction,
+    /// Indices of the bodies that it acts on; empty for all. Bodies that share a velocity field are held together.
+    pub bodies: Vec<usize>,
     /// Velocity of the boundary, m/s. Moves the solid, too.
     pub velocity: Vector2<f64>,
     /// How far it has moved, m.
@@ -110,6 +112,7 @@ impl Boundary {
             normal,
             tangent: Vector2::new(normal.y, -normal.x),
             friction,
+            bodies: Vec::new(),
             velocity: Vector2::zeros(),
             travel: Vector2::zeros(),
             opening: None,
@@ -134,6 +137,16 @@ impl Boundary {
             tangent,
             ..Self::plane(name, foot, tangent, friction)
         }
+    }
+
+    /// The same boundary for some bodies only, by index.
+    pub fn only_for(self, bodies: &[usize]) -> Self {
+        Self { bodies: bodies.to_vec(), ..self }
+    }
+
+    /// Whether it acts on any of these bodies.
+    pub fn acts_on(&self, bodies: &[usize]) -> bool {
+        self.bodies.is_empty() || bodies.iter().any(|b| self.bodies.contains(b))
     }
 
     /// The same wall with the material on its right.

@@ -67,13 +67,14 @@ impl Tally {
     }
 }
 
-/// Lists every node of `grid` held by a boundary, in the order of the nodes.
-pub fn find_holds(boundaries: &[Boundary], grid: &ActiveGrid, holds: &mut Vec<Hold>) {
+/// Lists every node of `grid` held by a boundary that acts on any of `bodies`, in the order of the nodes.
+pub fn find_holds(boundaries: &[Boundary], bodies: &[usize], grid: &ActiveGrid, holds: &mut Vec<Hold>) {
     holds.clear();
     let tolerance = 1e-6 * grid.spacing;
+    let acting = || boundaries.iter().enumerate().filter(|(_, b)| b.acts_on(bodies));
     for (node, x) in grid.nodes() {
-        let buried = boundaries.iter().any(|b| b.height().is_infinite() && b.depth(x) >= -tolerance);
-        for (index, b) in boundaries.iter().enumerate() {
+        let buried = acting().any(|(_, b)| b.height().is_infinite() && b.depth(x) >= -tolerance);
+        for (index, b) in acting() {
             if let Some(contact) = b.hold(x, grid.spacing, tolerance, buried) {
                 let foot = b.foot();
                 holds.push(Hold {
@@ -94,6 +95,11 @@ pub fn find_holds(boundaries: &[Boundary], grid: &ActiveGrid, holds: &mut Vec<Ho
 }
 
 impl Hold {
+    /// The velocity that the boundary prescribes, if it is a clamp that is closed, m/s.
+    pub fn clamped(&self, boundaries: &[Boundary]) -> Option<[f64; 2]> {
+        (self.bonded && self.is_active(boundaries)).then_some(self.wall)
+    }
+
     /// The vector impulse of the step on the material, N s.
     pub fn vector_impulse(&self) -> [f64; 2] {
         let ([nx, ny], [n, t]) = (self.normal, self.impulse);
@@ -162,28 +168,40 @@ pub fn solve(
     v: &mut [f64; 2],
     tallies: &mut [Tally],
 ) {
-    let mut sweeps = if holds.len() > 1 { SWEEPS } else { 1 };
-    for hold in holds.iter_mut() {
-        hold.impulse = [0.0; 2];
-    }
+    reset(holds);
     if holds.len() > 1 {
         // In a corner, what one boundary takes as normal force another could take as friction. Friction resists sliding only:
         // the normal impulses come first, and friction finds what sliding they leave.
-        for _ in 0..SWEEPS {
-            holds.iter_mut().filter(|h| h.is_active(boundaries)).for_each(|h| h.relax_normal(m, v));
-        }
+        visit(holds, boundaries, m, v, false);
     }
-    while sweeps > 0 {
+    visit(holds, boundaries, m, v, true);
+    book(holds, [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])], tallies);
+}
+
+/// Forgets the impulses of a node's holds.
+pub fn reset(holds: &mut [Hold]) {
+    for hold in holds.iter_mut() {
+        hold.impulse = [0.0; 2];
+    }
+}
+
+/// Brings the impulses of all holds of a node of mass `m` up to date with its velocity `v`, and the velocity with them; without
+/// friction, or with it.
+pub fn visit(holds: &mut [Hold], boundaries: &[Boundary], m: f64, v: &mut [f64; 2], with_friction: bool) {
+    for _ in 0..if holds.len() > 1 { SWEEPS } else { 1 } {
         for hold in holds.iter_mut() {
-            if hold.is_active(boundaries) {
-                hold.relax(m, v);
-            } else {
-                hold.state = HoldState::Apart;
+            match hold.is_active(boundaries) {
+                true if with_friction => hold.relax(m, v),
+                true => hold.relax_normal(m, v),
+                false => hold.state = HoldState::Apart,
             }
         }
-        sweeps -= 1;
     }
-    let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
+}
+
+/// Adds what the holds of a node did in the step to the tallies of their boundaries; `mean` is the mean of the node's velocities
+/// before and after.
+pub fn book(holds: &[Hold], mean: [f64; 2], tallies: &mut [Tally]) {
     for hold in holds.iter() {
         if hold.state != HoldState::Apart {
             tallies[hold.boundary as usize].add(&hold.tally(mean));

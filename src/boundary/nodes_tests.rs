@@ -20,7 +20,7 @@ pub(super) fn holds_at(x: [f64; 2], boundaries: &[Boundary]) -> Vec<Hold> {
     };
     grid.index_columns();
     let mut holds = Vec::new();
-    find_holds(boundaries, &grid, &mut holds);
+    find_holds(boundaries, &[0], &grid, &mut holds);
     holds
 }
 

@@ -27,7 +27,9 @@ pub struct Boundary {
     pub material_side: Option<MaterialSide>,
     /// Wall, gate: thickness on the side away from the material, m, positive. Default four cells.
     pub thickness_m: Option<f64>,
-    /// Contact law. No boundary holds back material that moves away.
+    /// Names of the bodies that it acts on. Default all.
+    pub bodies: Option<Vec<String>>,
+    /// Contact law. Only a clamp holds back material that moves away.
     pub contact: ContactKind,
     /// Coulomb friction coefficient (not an angle), not negative; with `coulomb`, and only then.
     pub friction: Option<f64>,
@@ -72,6 +74,8 @@ pub enum ContactKind {
     Coulomb,
     /// No slip while pressed.
     Rough,
+    /// No motion at all: a clamp.
+    Bonded,
 }
 
 /// How a gate opens, as written in the file.
@@ -149,6 +153,8 @@ pub enum Contact {
     },
     /// No slip while pressed.
     Rough,
+    /// No motion at all: a clamp.
+    Bonded,
 }
 
 impl Boundary {
@@ -170,7 +176,13 @@ impl Boundary {
             ContactKind::Smooth => Some(Contact::Smooth),
             ContactKind::Coulomb => Some(Contact::Coulomb { friction: self.friction? }),
             ContactKind::Rough => Some(Contact::Rough),
+            ContactKind::Bonded => Some(Contact::Bonded),
         }
+    }
+
+    /// Whether it acts on the body of this name.
+    pub fn acts_on(&self, body: &str) -> bool {
+        self.bodies.as_ref().is_none_or(|names| names.iter().any(|name| name == body))
     }
 
     fn wall(&self, grid: &Grid) -> Option<Wall> {

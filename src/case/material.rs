@@ -36,6 +36,8 @@ pub enum Law {
     DruckerPrager,
     /// Linear elasticity alone.
     LinearElastic,
+    /// Neo-Hookean elasticity: for bodies that turn or bend far.
+    NeoHookean,
 }
 
 /// How the Drucker-Prager cone is matched to the Mohr-Coulomb angle.
@@ -74,7 +76,7 @@ impl Material {
     /// The Drucker-Prager parameters; `None` for an elastic material. In a validated case the two cases are exhaustive.
     pub fn drucker_prager(&self) -> Option<DruckerPrager> {
         match self.law {
-            Law::LinearElastic => None,
+            Law::LinearElastic | Law::NeoHookean => None,
             Law::DruckerPrager => Some(DruckerPrager {
                 friction_angle_deg: self.friction_angle_deg?,
                 cohesion_pa: self.cohesion_pa.unwrap_or(0.0),

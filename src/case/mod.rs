@@ -4,6 +4,7 @@
 //! whose `Display` is the complete report for the user.
 
 mod boundary;
+mod contact;
 mod geometry;
 mod material;
 mod parse;
@@ -23,6 +24,7 @@ use std::path::Path;
 use thiserror::Error;
 
 pub use boundary::{Boundary, BoundaryKind, Contact, ContactKind, MaterialSide, Opening, OpeningKind, Shape, Wall};
+pub use contact::{BodyContact, GapKind, NormalKind};
 pub use geometry::direction;
 pub use material::{Cone, DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};

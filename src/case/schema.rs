@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::boundary::Boundary;
+use super::contact::BodyContact;
 use super::material::Material;
 
 /// Most particles a case may have; above this it is refused before any memory is asked for.
@@ -36,6 +37,9 @@ pub struct Case {
     /// Rigid planes, walls and gates.
     #[serde(default)]
     pub boundaries: Vec<Boundary>,
+    /// Contacts of bodies that slide on each other or part. Left out: all bodies stick together where they meet.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<BodyContact>,
     /// Friction of the channel's side walls.
     #[serde(default)]
     pub side_walls: SideWalls,
@@ -327,6 +331,7 @@ impl Case {
         for boundary in &mut self.boundaries {
             boundary.resolve(&self.grid);
         }
+        self.contacts.iter_mut().for_each(BodyContact::resolve);
     }
 
     /// The case as a TOML document.

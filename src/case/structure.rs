@@ -9,7 +9,7 @@ use super::validate::Problem;
 const TABLES: [&str; 9] =
     ["gravity", "grid", "domain", "materials", "side_walls", "stages", "gauges", "output", "numerics"];
 const TABLES_OF_STAGES: [&str; 3] = ["settle", "tilt", "run"];
-const LISTS: [&str; 2] = ["bodies", "boundaries"];
+const LISTS: [&str; 3] = ["bodies", "boundaries", "contacts"];
 const PAIRS: [&str; 7] = ["x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "window_x_m", "window_y_m"];
 
 /// Tables, lists of tables and pairs of numbers that are something else.

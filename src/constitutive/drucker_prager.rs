@@ -129,8 +129,8 @@ impl Law for DruckerPrager {
         midpoint_work(&before, &after, d)
     }
 
-    fn stored_energy(&self, stress: &Stress) -> f64 {
-        self.elastic.energy(stress)
+    fn stored_energy(&self, state: &PointState) -> f64 {
+        self.elastic.energy(&state.stress)
     }
 
     fn p_wave_modulus(&self) -> f64 {

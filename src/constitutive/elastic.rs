@@ -50,8 +50,8 @@ impl Law for LinearElastic {
         midpoint_work(&before, &after, d)
     }
 
-    fn stored_energy(&self, stress: &Stress) -> f64 {
-        self.energy(stress)
+    fn stored_energy(&self, state: &PointState) -> f64 {
+        self.energy(&state.stress)
     }
 
     fn p_wave_modulus(&self) -> f64 {

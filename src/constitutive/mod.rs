@@ -6,9 +6,11 @@
 
 mod drucker_prager;
 mod elastic;
+mod neo_hookean;
 
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::LinearElastic;
+pub use neo_hookean::{Finger, NeoHookean};
 
 /// Cauchy stress under plane strain, in Pa, tension positive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -78,19 +80,34 @@ pub struct PointState {
     pub opened: f64,
     /// Equivalent plastic shear strain, the path integral of sqrt(2/3 de_p:de_p), deviatoric part.
     pub plastic_shear: f64,
+    /// Left Cauchy-Green tensor, for laws that carry it ([`Law::CARRIES_DEFORMATION`]).
+    pub finger: Finger,
 }
 
 /// A constitutive law.
 pub trait Law: Copy + Send + Sync {
-    /// Advances `state` by one increment and returns the work done per unit volume, with the midpoint stress (J/m3).
+    /// Whether the law needs the left Cauchy-Green tensor kept from step to step.
+    const CARRIES_DEFORMATION: bool = false;
+
+    /// Advances `state` by one increment and returns the work done per unit volume, at the mean of the volumes before and after
+    /// (J/m3).
     ///
-    /// The stress follows the Jaumann rate: it is turned by half the spin, strained, and turned by the other half, which is
-    /// second-order accurate; each half turn uses the Cayley form of the rotation (Hughes and Winget 1980), which keeps the
-    /// invariants to round-off.
+    /// Laws in rate form follow the Jaumann rate: the stress is turned by half the spin, strained, and turned by the other half,
+    /// which is second-order accurate; each half turn uses the Cayley form of the rotation (Hughes and Winget 1980), which keeps
+    /// the invariants to round-off. Their work is that of the midpoint stress.
     fn update(&self, state: &mut PointState, increment: &Increment) -> f64;
 
-    /// Elastic energy stored per unit volume, J2/(2G) + mean^2/(2K), in J/m3.
-    fn stored_energy(&self, stress: &Stress) -> f64;
+    /// Current over reference volume after an increment that `state` has been advanced by; `before` is what it was.
+    #[inline(always)]
+    fn volume_ratio(&self, state: &PointState, before: f64, increment: &Increment) -> f64 {
+        let _ = state;
+        // exp of the volumetric strain to third order, without leaving the positive side for |strain| < 2.
+        let half = 0.5 * increment.volumetric();
+        before * ((1.0 + half) / (1.0 - half))
+    }
+
+    /// Elastic energy stored per unit current volume, J/m3; in rate form J2/(2G) + mean^2/(2K).
+    fn stored_energy(&self, state: &PointState) -> f64;
 
     /// P-wave modulus M = K + 4G/3 in Pa, which bounds the time step.
     fn p_wave_modulus(&self) -> f64;
@@ -117,6 +134,19 @@ pub enum AnyLaw {
     LinearElastic(LinearElastic),
     /// Drucker-Prager.
     DruckerPrager(DruckerPrager),
+    /// Neo-Hookean elasticity.
+    NeoHookean(NeoHookean),
+}
+
+impl AnyLaw {
+    /// See [`Law::CARRIES_DEFORMATION`].
+    pub fn carries_deformation(&self) -> bool {
+        match self {
+            AnyLaw::LinearElastic(_) => LinearElastic::CARRIES_DEFORMATION,
+            AnyLaw::DruckerPrager(_) => DruckerPrager::CARRIES_DEFORMATION,
+            AnyLaw::NeoHookean(_) => NeoHookean::CARRIES_DEFORMATION,
+        }
+    }
 }
 
 impl Law for AnyLaw {
@@ -124,13 +154,23 @@ impl Law for AnyLaw {
         match self {
             AnyLaw::LinearElastic(law) => law.update(state, increment),
             AnyLaw::DruckerPrager(law) => law.update(state, increment),
+            AnyLaw::NeoHookean(law) => law.update(state, increment),
         }
     }
 
-    fn stored_energy(&self, stress: &Stress) -> f64 {
+    fn volume_ratio(&self, state: &PointState, before: f64, increment: &Increment) -> f64 {
         match self {
-            AnyLaw::LinearElastic(law) => law.stored_energy(stress),
-            AnyLaw::DruckerPrager(law) => law.stored_energy(stress),
+            AnyLaw::LinearElastic(law) => law.volume_ratio(state, before, increment),
+            AnyLaw::DruckerPrager(law) => law.volume_ratio(state, before, increment),
+            AnyLaw::NeoHookean(law) => law.volume_ratio(state, before, increment),
+        }
+    }
+
+    fn stored_energy(&self, state: &PointState) -> f64 {
+        match self {
+            AnyLaw::LinearElastic(law) => law.stored_energy(state),
+            AnyLaw::DruckerPrager(law) => law.stored_energy(state),
+            AnyLaw::NeoHookean(law) => law.stored_energy(state),
         }
     }
 
@@ -138,6 +178,7 @@ impl Law for AnyLaw {
         match self {
             AnyLaw::LinearElastic(law) => law.p_wave_modulus(),
             AnyLaw::DruckerPrager(law) => law.p_wave_modulus(),
+            AnyLaw::NeoHookean(law) => law.p_wave_modulus(),
         }
     }
 }

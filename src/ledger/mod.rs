@@ -4,6 +4,7 @@
 //! none is inferred from another, so what does not add up shows as a residual.
 
 use crate::boundary::nodes::Tally;
+use crate::contact::rule::ContactTally;
 use crate::momentum::Drag;
 
 /// Sums since the ledger was opened. Impulses act on the material; works are done on the material.
@@ -13,6 +14,8 @@ pub struct Ledger {
     pub gravity: [f64; 2],
     /// One per boundary.
     pub boundaries: Vec<Tally>,
+    /// One per contact of two bodies; their impulses cancel.
+    pub contacts: Vec<ContactTally>,
     /// Mass-proportional damping.
     pub damping: Drag,
     /// Side-wall friction.
@@ -36,11 +39,12 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// An empty ledger for `boundaries` boundaries.
-    pub fn new(boundaries: usize) -> Self {
+    /// An empty ledger for `boundaries` boundaries and `contacts` pairs of bodies in contact.
+    pub fn new(boundaries: usize, contacts: usize) -> Self {
         Self {
             boundaries: vec![Tally::default(); boundaries],
             departed_behind: vec![0.0; boundaries],
+            contacts: vec![ContactTally::default(); contacts],
             ..Self::default()
         }
     }
@@ -83,9 +87,9 @@ pub struct EnergyBalance {
     pub elastic: f64,
     /// Work of the stresses that was not stored: plastic dissipation.
     pub plastic: f64,
-    /// Friction on each boundary.
+    /// Friction on each boundary, then in each contact of two bodies.
     pub friction: Vec<f64>,
-    /// Loss of normal motion at each boundary; negative where a moving boundary does work.
+    /// Loss of normal motion at each boundary, negative where a moving boundary does work; then in each contact of two bodies.
     pub contact: Vec<f64>,
     /// PIC share of the velocity update.
     pub pic: f64,
@@ -108,8 +112,11 @@ impl EnergyBalance {
     /// the mass at the level counted as zero, opening and now.
     pub fn new(ledger: &Ledger, opening: &Stock, now: &Stock, datum: [f64; 2]) -> Self {
         let initial = opening.kinetic + opening.gravitational - datum[0] + opening.elastic;
-        let friction: Vec<f64> = ledger.boundaries.iter().map(|b| -b.friction_work).collect();
-        let contact: Vec<f64> = ledger.boundaries.iter().map(|b| -b.normal_work).collect();
+        let pairs = || ledger.contacts.iter().map(|c| &c.exchange);
+        let friction: Vec<f64> =
+            ledger.boundaries.iter().map(|b| -b.friction_work).chain(pairs().map(|c| -c.friction_work)).collect();
+        let contact: Vec<f64> =
+            ledger.boundaries.iter().map(|b| -b.normal_work).chain(pairs().map(|c| -c.normal_work)).collect();
         let mut balance = Self {
             kinetic: now.kinetic,
             gravitational: now.gravitational - datum[1],

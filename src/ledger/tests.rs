@@ -12,6 +12,7 @@ fn ledger() -> Ledger {
     Ledger {
         gravity: [1.0, -2.0],
         boundaries: vec![tally(2), tally(6)],
+        contacts: vec![],
         damping: drag(10),
         side_walls: drag(14),
         field: drag(18),
@@ -27,8 +28,9 @@ fn ledger() -> Ledger {
 
 #[test]
 fn a_new_ledger_is_empty_and_has_a_line_for_each_boundary() {
-    let ledger = Ledger::new(3);
+    let ledger = Ledger::new(3, 2);
     assert_eq!(ledger.boundaries, [Tally::default(); 3]);
+    assert_eq!(ledger.contacts, [ContactTally::default(); 2]);
     assert_eq!(ledger.departed_behind, [0.0; 3]);
     assert_eq!(ledger.impulse(), [0.0; 2]);
 }
@@ -63,4 +65,16 @@ fn energy_is_booked_once_each_with_dissipation_positive() {
     let all = all + p(20) + p(23) + (p(26) + p(34) - p(33));
     assert_eq!(b.accounted(), all);
     assert_eq!(b.residual, b.initial - all);
+}
+
+#[test]
+fn contacts_of_bodies_dissipate_and_give_no_impulse() {
+    let exchange = crate::contact::pair::Exchange { impulse: [3.0, 5.0], friction_work: -0.25, normal_work: -0.5 };
+    let with = Ledger { contacts: vec![ContactTally { exchange, moment: 9e9, nodes: 3 }], ..ledger() };
+    assert_eq!(with.impulse(), ledger().impulse());
+    let (opening, now) = (Stock::default(), Stock::default());
+    let (without, balance) =
+        (EnergyBalance::new(&ledger(), &opening, &now, [0.0; 2]), EnergyBalance::new(&with, &opening, &now, [0.0; 2]));
+    assert_eq!((balance.friction[2], balance.contact[2]), (0.25, 0.5));
+    assert_eq!(balance.residual, without.residual - 0.75);
 }

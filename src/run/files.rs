@@ -129,6 +129,9 @@ impl Folder {
         let sim = experiment.simulation();
         let gauges = experiment.gauges();
         let names: Vec<String> = sim.boundaries().iter().map(|b| column_name(&b.name)).collect();
+        let body = |k: usize| column_name(&sim.bodies()[k].name);
+        let pairs = sim.contacts().map(|c| format!("{}_on_{}", body(c.bodies[0]), body(c.bodies[1])));
+        let where_energy_goes: Vec<String> = names.iter().cloned().chain(pairs).collect();
         let table = |name: &str, columns: &[String]| TableWriter::create(directory.join(name), columns);
         let fixed = |columns: &[&str]| columns.iter().map(ToString::to_string).collect::<Vec<_>>();
         let optional =
@@ -146,7 +149,7 @@ impl Folder {
         Ok(Self {
             directory: directory.to_path_buf(),
             history: table("history.csv", &fixed(&HistoryRow::COLUMNS))?,
-            energy: table("energy.csv", &energy_columns(&names))?,
+            energy: table("energy.csv", &energy_columns(&where_energy_goes))?,
             momentum: table("momentum.csv", &momentum_columns(&names))?,
             stations: optional(
                 !gauges.stations_m.is_empty(),

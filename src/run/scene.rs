@@ -3,7 +3,8 @@
 use crate::body::{Body, Particle};
 use crate::boundary::{Boundary, Friction, Opening};
 use crate::case::{self, Case};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic};
+use crate::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic, NeoHookean};
+use crate::contact::rule::{ContactRule, GapRule, NormalRule};
 use crate::grid::Lattice;
 use crate::shape::ShapeFunction;
 use crate::simulation::{Numerics, PicShare, Scene, Scheme};
@@ -19,6 +20,7 @@ pub fn build(case: &Case) -> Scene {
         bodies: case.bodies.iter().map(|b| body(case, b)).collect(),
         boundaries: case.boundaries.iter().filter_map(|b| boundary(case, b)).collect(),
         gravity: gravity(case, angle),
+        contacts: case.contacts.iter().filter_map(|c| contact(case, c)).collect(),
         side_wall_friction: case.side_walls.friction,
         numerics: numerics(case),
     }
@@ -59,6 +61,9 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
 fn law(material: &case::Material) -> AnyLaw {
     let elastic = LinearElastic::new(material.young_pa, material.poisson);
     match material.drucker_prager() {
+        None if material.law == case::Law::NeoHookean => {
+            AnyLaw::NeoHookean(NeoHookean::new(material.young_pa, material.poisson))
+        }
         None => AnyLaw::LinearElastic(elastic),
         Some(dp) => AnyLaw::DruckerPrager(DruckerPrager::new(
             elastic,
@@ -83,6 +88,7 @@ fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
         case::Contact::Smooth => Friction::Smooth,
         case::Contact::Coulomb { friction } => Friction::Coulomb(friction),
         case::Contact::Rough => Friction::Rough,
+        case::Contact::Bonded => Friction::Bonded,
     };
     let wall = |w: case::Wall| {
         let wall =
@@ -92,7 +98,8 @@ fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
             case::MaterialSide::Right => wall.facing_right(),
         }
     };
-    Some(match b.shape(&case.grid)? {
+    let named = b.bodies.iter().flatten().filter_map(|name| index(case, name)).collect::<Vec<_>>();
+    let boundary = match b.shape(&case.grid)? {
         case::Shape::Plane { point_m, normal_deg } => {
             Boundary::plane(&b.name, point_m.into(), direction(normal_deg), friction)
         }
@@ -104,7 +111,36 @@ fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
                 Opening::Lift { speed: speed_m_per_s.unwrap_or(f64::INFINITY), opening: opening_m }
             }
         }),
-    })
+    };
+    Some(boundary.only_for(&named))
+}
+
+/// `None` only for a contact that validation refuses.
+fn contact(case: &Case, c: &case::BodyContact) -> Option<ContactRule> {
+    let bodies = [index(case, c.bodies.first()?)?, index(case, c.bodies.get(1)?)?];
+    let normal = match c.normal.unwrap_or_default() {
+        case::NormalKind::NearestFace => {
+            NormalRule::NearestFace(usize::from(c.structure_name() == c.bodies.get(1).map(String::as_str)))
+        }
+        case::NormalKind::LargerBody => NormalRule::LargerBody,
+        case::NormalKind::Average => NormalRule::Average,
+        case::NormalKind::Regression => NormalRule::Regression,
+        case::NormalKind::Prescribed => NormalRule::Prescribed(case::direction(c.normal_deg?)),
+    };
+    let gap = match c.gap.unwrap_or_default() {
+        case::GapKind::Extents => GapRule::Extents,
+        case::GapKind::Positions => {
+            GapRule::Positions { offset: c.offset_cells.unwrap_or(case::BodyContact::DEFAULT_OFFSET_CELLS) }
+        }
+        case::GapKind::Displacements => GapRule::Displacements,
+        case::GapKind::Approach => GapRule::Approach,
+    };
+    Some(ContactRule { bodies, friction: c.friction, normal, gap })
+}
+
+/// Index of the body of this name.
+fn index(case: &Case, name: &str) -> Option<usize> {
+    case.bodies.iter().position(|b| b.name == name)
 }
 
 /// Unit vector at an angle from the x axis; exact along the axes, where walls must meet nodes.

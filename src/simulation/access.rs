@@ -1,11 +1,13 @@
 //! Reading a simulation, and steering it between steps.
 
-use super::{AccelerationField, Simulation, potential};
+use super::field::VelocityField;
+use super::{AccelerationField, ContactPoint, PicShare, Simulation, potential};
 use crate::band::Band;
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
 use crate::constitutive::Law;
+use crate::contact::rule::{ContactRule, ContactTally};
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::timestep::TimeStep;
 
@@ -83,13 +85,23 @@ impl Simulation {
     /// Adds a field of accelerations to gravity, as manufactured solutions need, or removes it.
     pub fn set_field(&mut self, field: Option<AccelerationField>) {
         self.field = field;
-        self.bands.iter_mut().for_each(|band| band.nodes.field_force.clear());
+        self.fields.iter_mut().flat_map(|f| &mut f.bands).for_each(|band| band.nodes.field_force.clear());
     }
 
     /// Moves a boundary at a velocity, m/s. Nodes it reaches are found at the next sort, so keep it slow against h per sort.
     pub fn set_boundary_velocity(&mut self, index: usize, velocity: [f64; 2]) {
         self.boundaries[index].velocity = velocity.into();
         self.find_holds();
+    }
+
+    /// Changes the share of PIC.
+    pub fn set_pic(&mut self, pic: PicShare) {
+        self.numerics.pic = pic;
+    }
+
+    /// Changes the friction coefficient of a contact of two bodies.
+    pub fn set_contact_friction(&mut self, contact: usize, friction: f64) {
+        self.coupling.set_friction(contact, friction);
     }
 
     /// Releases all gates.
@@ -100,24 +112,22 @@ impl Simulation {
 
     /// All points as (body index, point), in a fixed order that changes with sorting.
     pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
-        self.bands.iter().flat_map(|band| {
-            band.points.iter().enumerate().flat_map(|(body, points)| points.iter().map(move |p| (body, p)))
-        })
+        self.fields.iter().flat_map(VelocityField::particles)
     }
 
     /// Number of material points.
     pub fn particle_count(&self) -> usize {
-        self.bands.iter().map(Band::len).sum()
+        self.bands().map(Band::len).sum()
     }
 
     /// Number of active nodes.
     pub fn node_count(&self) -> usize {
-        self.grid.len()
+        self.fields.iter().map(|f| f.grid.len()).sum()
     }
 
     /// Bytes held by points, accumulators and nodes.
     pub fn bytes(&self) -> usize {
-        self.bands.iter().map(Band::bytes).sum::<usize>() + self.grid.bytes()
+        self.bands().map(Band::bytes).sum::<usize>() + self.fields.iter().map(|f| f.grid.bytes()).sum::<usize>()
     }
 
     /// What each boundary did in the last step.
@@ -125,14 +135,33 @@ impl Simulation {
         &self.step_tallies
     }
 
-    /// Contacts of the last step, in the order of the nodes.
+    /// Contacts of bodies.
+    pub fn contacts(&self) -> impl Iterator<Item = &ContactRule> {
+        self.coupling.rules()
+    }
+
+    /// What the two bodies of each contact did to each other in the last step.
+    pub fn contact_tallies(&self) -> impl Iterator<Item = &ContactTally> {
+        self.coupling.tallies()
+    }
+
+    /// Where bodies touched each other in the last step.
+    pub fn contact_points(&self) -> &[ContactPoint] {
+        self.coupling.points()
+    }
+
+    /// What boundaries did to single nodes in the last step, in the order of the nodes.
     pub fn holds(&self) -> impl Iterator<Item = &Hold> {
-        self.bands.iter().flat_map(|b| &b.nodes.holds)
+        self.bands().flat_map(|b| &b.nodes.holds)
+    }
+
+    fn bands(&self) -> impl Iterator<Item = &Band> {
+        self.fields.iter().flat_map(|f| &f.bands)
     }
 
     /// Starts a new ledger now.
     pub fn open_ledger(&mut self) {
-        self.ledger = Ledger::new(self.boundaries.len());
+        self.ledger = Ledger::new(self.boundaries.len(), self.ledger.contacts.len());
         self.opening = self.stock();
     }
 
@@ -148,8 +177,13 @@ impl Simulation {
 
     /// What the material holds now.
     pub fn stock(&self) -> Stock {
+        self.stock_of(|_| true)
+    }
+
+    /// What some bodies, chosen by index, hold now.
+    pub fn stock_of(&self, chosen: impl Fn(usize) -> bool) -> Stock {
         let mut s = Stock::default();
-        for (body, p) in self.particles() {
+        for (body, p) in self.particles().filter(|(body, _)| chosen(*body)) {
             let body = &self.bodies[body];
             let m = body.point_mass;
             s.mass += m;
@@ -157,7 +191,7 @@ impl Simulation {
             s.momentum[1] += m * p.v[1];
             s.kinetic += 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
             s.gravitational += m * potential(&self.forces.gravity, &p.x);
-            s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state.stress);
+            s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         }
         s
     }

@@ -1,23 +1,29 @@
 //! The simulation: bodies, grid and clock. [`Simulation::step`] is the algorithm.
 
-use crate::band::Band;
-use crate::body::{Body, Points};
+use crate::body::Body;
 use crate::boundary::Boundary;
-use crate::boundary::nodes::{self, Hold, Tally};
+use crate::boundary::nodes::Tally;
 use crate::constitutive::Law;
-use crate::grid::{ActiveGrid, Lattice};
-use crate::layout::{Departed, SortRules, Sorter};
+use crate::grid::Lattice;
+use crate::layout::{Departed, SortRules};
 use crate::ledger::{Ledger, Stock};
-use crate::momentum::{self, BodyForces};
+use crate::momentum::BodyForces;
 use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
+use coupling::Coupling;
 use failure::CRUSHED;
+use field::VelocityField;
+use stages::Stage;
+use sweep::On;
 
 mod access;
+mod coupling;
 mod failure;
+mod field;
 mod scene;
 mod stages;
 mod sweep;
 
+pub use coupling::ContactPoint;
 pub use failure::StepFailure;
 pub use scene::{Acceleration, AccelerationField, Numerics, PicShare, Scene, Scheme};
 
@@ -35,13 +41,8 @@ pub struct Simulation {
     field: Option<AccelerationField>,
     mass: f64,
 
-    bands: Vec<Band>,
-    grid: ActiveGrid,
-    holds: Vec<Hold>,
-    sorter: Sorter,
-    departed: Vec<Departed>,
-    /// Farthest that any point can have moved since the last sort, m.
-    drift: f64,
+    fields: Vec<VelocityField>,
+    coupling: Coupling,
     speeds: Vec<f64>,
 
     time: f64,
@@ -55,14 +56,23 @@ pub struct Simulation {
 impl Simulation {
     /// Takes over a scene.
     pub fn new(scene: Scene) -> Self {
-        let mut band = Band::default();
-        let mut bodies = Vec::new();
-        let mut mass = 0.0;
-        for (body, particles) in scene.bodies {
-            let mut points = Points::default();
-            particles.iter().for_each(|p| points.push(p));
-            mass += body.point_mass * points.len() as f64;
-            band.points.push(points);
+        let (mut fields, mut bodies, mut mass) = (Vec::new(), Vec::new(), 0.0);
+        let mut common = None;
+        for (index, (body, particles)) in scene.bodies.into_iter().enumerate() {
+            mass += body.point_mass * particles.len() as f64;
+            // Bodies in contact have a velocity field each, all others share one.
+            let alone = scene.contacts.iter().any(|c| c.bodies.contains(&index));
+            let field = match common {
+                Some(field) if !alone => field,
+                _ => {
+                    fields.push(VelocityField::default());
+                    fields.len() - 1
+                }
+            };
+            if !alone {
+                common = Some(field);
+            }
+            fields[field].add(index, body.clone(), &particles);
             bodies.push(body);
         }
         let boundaries = scene.boundaries;
@@ -77,36 +87,37 @@ impl Simulation {
             mass,
             speeds: vec![0.0; bodies.len()],
             step_tallies: vec![Tally::default(); boundaries.len()],
-            ledger: Ledger::new(boundaries.len()),
+            ledger: Ledger::new(boundaries.len(), scene.contacts.len()),
+            coupling: Coupling::new(&scene.contacts, &fields),
             bodies,
             boundaries,
-            bands: vec![band],
-            grid: ActiveGrid::default(),
-            holds: Vec::new(),
-            sorter: Sorter::default(),
-            departed: Vec::new(),
-            drift: 0.0,
+            fields,
             time: 0.0,
             steps: 0,
             time_step: TimeStep { dt: 0.0, limit: TimeStepLimit::Maximum, wave_speed: 0.0, particle_speed: 0.0 },
             opening: Stock::default(),
         };
         simulation.measure_speeds();
-        simulation.sort();
+        (0..simulation.fields.len()).for_each(|k| simulation.sort(k));
         simulation.open_ledger();
         simulation
     }
 
     /// One time step: the stages of [`Scheme`], then the books.
     pub fn step(&mut self) -> Result<(), StepFailure> {
-        if self.drift > self.lattice.spacing {
-            self.sort();
+        for k in 0..self.fields.len() {
+            if self.fields[k].drift > self.lattice.spacing {
+                self.sort(k);
+            }
         }
         self.time_step = self.next_time_step();
         let dt = self.time_step.dt;
         let stages = self.numerics.scheme.stages();
-        let (step, bands) = self.begin(dt);
-        sweep::sweep(stages, bands, &|&stage, before, band| step.run(stage, before, band));
+        if self.coupling.is_empty() {
+            self.sweep_all(stages, dt);
+        } else {
+            self.sweep_coupled(stages, dt);
+        }
         self.time += dt;
         self.steps += 1;
         for boundary in &mut self.boundaries {
@@ -114,6 +125,31 @@ impl Simulation {
         }
         self.book_impulses(dt);
         self.close_step(dt)
+    }
+
+    /// Does stages of a step on all fields.
+    fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64) {
+        for k in 0..self.fields.len() {
+            let (step, bands) = self.begin(k, dt);
+            sweep::sweep(stages, bands, &|&stage, before, band| step.run(stage, before, band));
+        }
+    }
+
+    /// Does a step on all fields, which wait for each other where their velocities meet.
+    fn sweep_coupled(&mut self, stages: &[(On, Stage)], dt: f64) {
+        if self.coupling.stale {
+            self.coupling.rebuild(&mut self.fields);
+        }
+        for part in stages.split_inclusive(|(on, _)| *on == On::Nodes) {
+            self.sweep_all(part, dt);
+            match part.last() {
+                Some((_, Stage::Momentum)) => {
+                    self.coupling.exchange(&mut self.fields, &self.boundaries, self.numerics.shape, dt);
+                }
+                Some((_, Stage::RemappedVelocities | Stage::OldVelocities)) => self.coupling.project(&mut self.fields),
+                _ => {}
+            }
+        }
     }
 
     fn next_time_step(&self) -> TimeStep {
@@ -125,13 +161,17 @@ impl Simulation {
     fn book_impulses(&mut self, dt: f64) {
         let ledger = &mut self.ledger;
         self.step_tallies.fill(Tally::default());
-        for band in &self.bands {
+        for band in self.fields.iter().flat_map(|f| &f.bands) {
             for (sum, tally) in self.step_tallies.iter_mut().zip(&band.tallies) {
                 sum.add(tally);
             }
             ledger.damping.merge(&band.distributed.damping);
             ledger.side_walls.merge(&band.distributed.side_walls);
             ledger.field.merge(&band.distributed.field);
+        }
+        for (sum, tally) in ledger.contacts.iter_mut().zip(self.coupling.tallies()) {
+            sum.merge(tally);
+            ledger.impulse_scale += tally.exchange.impulse[0].abs() + tally.exchange.impulse[1].abs();
         }
         for d in 0..2 {
             let impulse = self.mass * self.forces.gravity[d] * dt;
@@ -148,17 +188,21 @@ impl Simulation {
     fn close_step(&mut self, dt: f64) -> Result<(), StepFailure> {
         let mut kinetic = 0.0;
         let (mut fastest, mut smallest) = (0.0f64, f64::INFINITY);
-        for band in &self.bands {
-            let s = &band.sums;
-            kinetic += s.kinetic;
-            self.ledger.internal_work += s.internal_work;
-            self.ledger.pic_loss += s.pic_loss;
-            fastest = fastest.max(s.max_speed);
-            smallest = smallest.min(s.min_volume_ratio);
+        for field in &mut self.fields {
+            let (mut speed, mut moved) = (0.0f64, 0.0f64);
+            for band in &field.bands {
+                let s = &band.sums;
+                kinetic += s.kinetic;
+                self.ledger.internal_work += s.internal_work;
+                self.ledger.pic_loss += s.pic_loss;
+                speed = speed.max(s.max_speed);
+                moved = moved.max(s.max_displacement);
+                smallest = smallest.min(s.min_volume_ratio);
+            }
+            field.drift += moved;
+            field.members.iter().for_each(|&body| self.speeds[body] = speed);
+            fastest = fastest.max(speed);
         }
-
-        self.drift += self.bands.iter().map(|b| b.sums.max_displacement).fold(0.0, f64::max);
-        self.speeds.fill(fastest);
         let what = match () {
             () if !kinetic.is_finite() => "a velocity is not a number",
             () if smallest <= CRUSHED => "a material point is crushed or inverted",
@@ -168,29 +212,26 @@ impl Simulation {
         Err(self.failure(what))
     }
 
-    fn sort(&mut self) {
-        let rules =
-            SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &self.bodies, domain: self.domain };
-        self.sorter.sort(&rules, &mut self.bands, &mut self.grid, &mut self.departed);
-        for i in 0..self.departed.len() {
-            self.book_departure(self.departed[i]);
+    fn sort(&mut self, field: usize) {
+        let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
+        self.fields[field].sort(&rules, &self.boundaries);
+        self.coupling.stale = true;
+        for i in 0..self.fields[field].departed.len() {
+            self.book_departure(self.fields[field].departed[i]);
         }
-        self.departed.clear();
-        self.find_holds();
-        self.drift = 0.0;
     }
 
     /// Finds what holds each node.
     fn find_holds(&mut self) {
-        nodes::find_holds(&self.boundaries, &self.grid, &mut self.holds);
-        momentum::distribute_holds(&self.holds, self.boundaries.len(), &mut self.bands);
+        self.fields.iter_mut().for_each(|f| f.find_holds(&self.boundaries));
+        self.coupling.stale = true;
     }
 
     fn book_departure(&mut self, departed: Departed) {
         let body = &self.bodies[departed.body];
         let p = &departed.particle;
         let m = body.point_mass;
-        let elastic = body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state.stress);
+        let elastic = body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         self.mass -= m;
         let ledger = &mut self.ledger;
         ledger.departed_mass += m;
@@ -206,12 +247,9 @@ impl Simulation {
     }
 
     fn measure_speeds(&mut self) {
-        for (body, speed) in self.speeds.iter_mut().enumerate() {
-            *speed = self
-                .bands
-                .iter()
-                .flat_map(|b| b.points[body].iter())
-                .fold(0.0, |a: f64, p| a.max(p.v[0].abs()).max(p.v[1].abs()));
+        self.speeds.fill(0.0);
+        for (body, p) in self.fields.iter().flat_map(VelocityField::particles) {
+            self.speeds[body] = self.speeds[body].max(p.v[0].abs()).max(p.v[1].abs());
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
+use crate::contact::rule::ContactRule;
 use crate::grid::Lattice;
 use crate::shape::ShapeFunction;
 use std::sync::Arc;
@@ -78,6 +79,8 @@ pub struct Scene {
     pub domain: [[f64; 2]; 2],
     /// Bodies with their points.
     pub bodies: Vec<(Body, Vec<Particle>)>,
+    /// Contacts between bodies; bodies that are in none stick to each other where they meet.
+    pub contacts: Vec<ContactRule>,
     /// Rigid boundaries.
     pub boundaries: Vec<Boundary>,
     /// Gravity, m/s2.

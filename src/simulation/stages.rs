@@ -1,5 +1,6 @@
 //! The stages of a step, each on one band.
 
+use super::field::VelocityField;
 use super::sweep::On;
 use super::{AccelerationField, Scheme, Simulation};
 use crate::band::{Band, BandSums, NodeSum};
@@ -69,12 +70,13 @@ pub(super) struct Step<'a> {
 }
 
 impl Simulation {
-    /// The step of `dt` seconds that begins now, and the bands to do it on.
-    pub(super) fn begin(&mut self, dt: f64) -> (Step<'_>, &mut [Band]) {
+    /// The step of `dt` seconds that begins now for one velocity field, and the bands to do it on.
+    pub(super) fn begin(&mut self, field: usize, dt: f64) -> (Step<'_>, &mut [Band]) {
+        let VelocityField { bodies, bands, grid, .. } = &mut self.fields[field];
         let scheme = self.numerics.scheme;
         let step = Step {
-            grid: &self.grid,
-            bodies: &self.bodies,
+            grid,
+            bodies,
             boundaries: &self.boundaries,
             shape: self.numerics.shape,
             forces: self.forces,
@@ -89,7 +91,7 @@ impl Simulation {
             },
             stress: StressUpdate { dt, move_after: scheme != Scheme::Usf },
         };
-        (step, &mut self.bands)
+        (step, bands)
     }
 }
 

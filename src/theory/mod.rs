@@ -3,14 +3,18 @@
 //! One file per subject. Units are SI, angles radians, stresses positive in tension unless a function says otherwise.
 
 pub mod bar;
+pub mod barrier;
 pub mod cantilever;
 pub mod collapse;
 pub mod dispersion;
 pub mod drucker_prager;
 pub mod earth_pressure;
 pub mod elastic;
+pub mod hertz;
+pub mod impact;
 pub mod jaumann;
 pub mod manufactured;
+pub mod neo_hookean;
 pub mod order;
 pub mod pic;
 pub mod self_weight;

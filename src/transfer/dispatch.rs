@@ -149,6 +149,7 @@ mod wide {
         match law {
             AnyLaw::LinearElastic(law) => update_stress(shape, law, map, constants, update, velocity, points),
             AnyLaw::DruckerPrager(law) => update_stress(shape, law, map, constants, update, velocity, points),
+            AnyLaw::NeoHookean(law) => update_stress(shape, law, map, constants, update, velocity, points),
         }
     }
 }

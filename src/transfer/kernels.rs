@@ -5,7 +5,7 @@
 use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Block, Particle, Points};
-use crate::constitutive::{Increment, Law, PointState, Stress};
+use crate::constitutive::{Finger, Increment, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane, floor_to_int};
 use crate::shape::{STENCIL, Shape1d};
 use crate::vector::{Pack4, Pack8, Unit};
@@ -279,7 +279,7 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
     let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
-    for (block, n) in points.blocks_mut() {
+    for (block, n, mut fingers) in points.blocks_and_fingers_mut() {
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
@@ -313,13 +313,16 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
                 },
                 opened: block.opened[l],
                 plastic_shear: block.plastic_shear[l],
+                finger: Finger::default(),
             };
+            if L::CARRIES_DEFORMATION
+                && let Some(f) = &fingers
+            {
+                state.finger = Finger { xx: f[0][l], yy: f[1][l], xy: f[2][l] };
+            }
             let density = law.update(&mut state, &increment);
-            // exp of the volumetric strain to third order, without leaving the positive side for |strain| < 2.
-            let half = 0.5 * increment.volumetric();
-            let growth = (1.0 + half) / (1.0 - half);
             let before = block.volume_ratio[l];
-            let after = before * growth;
+            let after = law.volume_ratio(&state, before, &increment);
             let used = if l < n { constants.volume } else { 0.0 };
             work[l] += used * (0.5 * (before + after)) * density;
             smallest[l] = if after < smallest[l] { after } else { smallest[l] };
@@ -330,6 +333,11 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
             block.stress[3][l] = state.stress.xy;
             block.opened[l] = state.opened;
             block.plastic_shear[l] = state.plastic_shear;
+            if L::CARRIES_DEFORMATION
+                && let Some(f) = &mut fingers
+            {
+                (f[0][l], f[1][l], f[2][l]) = (state.finger.xx, state.finger.yy, state.finger.xy);
+            }
         }
         if update.move_after {
             for d in 0..2 {

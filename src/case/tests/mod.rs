@@ -6,6 +6,7 @@ use super::suggest::{edit_distance, nearest};
 use super::*;
 
 mod bad_input;
+mod contacts;
 
 const FLUME: &str = include_str!("../../../validation/flume/40deg.toml");
 

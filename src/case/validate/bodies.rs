@@ -1,7 +1,7 @@
 //! Bodies: their names, materials and masses, and what they may not overlap.
 
 use super::{Checker, text};
-use crate::case::boundary::Shape;
+use crate::case::boundary::{Boundary, ContactKind, Shape};
 use crate::case::geometry::{Penetration, penetration_of_plane, penetration_of_rectangle};
 use crate::case::path::KeyPath;
 use crate::case::schema::Body;
@@ -94,7 +94,9 @@ impl Checker<'_> {
     }
 
     fn clear_of_boundaries(&mut self, at: &KeyPath, body: &Body) {
-        for (index, boundary) in self.case.boundaries.iter().enumerate() {
+        // A clamp is there to hold what lies in it.
+        let solid = |b: &&Boundary| b.acts_on(&body.name) && b.contact != ContactKind::Bonded;
+        for (index, boundary) in self.case.boundaries.iter().enumerate().filter(|(_, b)| solid(b)) {
             let usable = self.is_clean(&KeyPath::top("boundaries").index(index))
                 && self.is_clean(&KeyPath::top("grid").key("spacing_m"));
             let Some(shape) = boundary.shape(&self.case.grid).filter(|_| usable) else {

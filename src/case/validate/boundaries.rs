@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{Checker, toml_text};
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind, OpeningKind};
 use crate::case::path::KeyPath;
+use crate::case::suggest::did_you_mean;
 
 /// Whether a field belongs to a boundary.
 #[derive(Clone, Copy, PartialEq)]
@@ -25,6 +26,7 @@ impl Checker<'_> {
             self.fields_of_kind(&at, boundary);
             self.contact(&at, boundary);
             self.opening(&at, boundary);
+            self.acts_on(&at, boundary);
             for (key, number, example) in [
                 ("height_m", boundary.height_m, 0.6),
                 ("thickness_m", boundary.thickness_m, 0.1),
@@ -80,6 +82,7 @@ impl Checker<'_> {
             ContactKind::Smooth => (Refused, "contact = \"smooth\""),
             ContactKind::Coulomb => (Required, "contact = \"coulomb\""),
             ContactKind::Rough => (Refused, "contact = \"rough\""),
+            ContactKind::Bonded => (Refused, "contact = \"bonded\""),
         };
         let path = at.key("friction");
         match boundary.friction {
@@ -93,6 +96,22 @@ impl Checker<'_> {
                 self.problem(&path, what, &friction, "friction only with contact = \"coulomb\"", fix);
             }
             friction => self.not_negative(&path, friction.unwrap_or(0.0), 0.4),
+        }
+    }
+
+    fn acts_on(&mut self, at: &KeyPath, boundary: &Boundary) {
+        let Some(names) = &boundary.bodies else { return };
+        let path = at.key("bodies");
+        if names.is_empty() {
+            let fix = "name a body, or leave the line out for all bodies";
+            self.not_allowed(&path, names, "at least one name", fix);
+        }
+        for (k, name) in names.iter().enumerate() {
+            let bodies = self.case.bodies.iter().map(|b| b.name.as_str());
+            if !bodies.clone().any(|other| other == name) {
+                let fix = did_you_mean(name, bodies);
+                self.not_allowed(&path.index(k), name, "the name of one of [[bodies]]", &fix);
+            }
         }
     }
 

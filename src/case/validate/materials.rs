@@ -13,7 +13,8 @@ impl Checker<'_> {
             self.poisson(&at.key("poisson"), material.poisson);
             match material.law {
                 Law::DruckerPrager => self.drucker_prager(&at, material),
-                Law::LinearElastic => self.only_elastic(&at, material),
+                Law::LinearElastic => self.only_elastic(&at, material, "linear_elastic"),
+                Law::NeoHookean => self.only_elastic(&at, material, "neo_hookean"),
             }
         }
     }
@@ -61,7 +62,7 @@ impl Checker<'_> {
         }
     }
 
-    fn only_elastic(&mut self, at: &KeyPath, material: &Material) {
+    fn only_elastic(&mut self, at: &KeyPath, material: &Material, law: &str) {
         let given = [
             ("friction_angle_deg", material.friction_angle_deg.is_some()),
             ("cohesion_pa", material.cohesion_pa.is_some()),
@@ -72,7 +73,7 @@ impl Checker<'_> {
         ];
         for (key, _) in given.into_iter().filter(|(_, given)| *given) {
             let path = at.key(key);
-            let what = format!("{path} is not used by law = \"linear_elastic\"");
+            let what = format!("{path} is not used by law = \"{law}\"");
             let fix = "remove the line, or use law = \"drucker_prager\"";
             self.problem(&path, what, &"", "only with law = \"drucker_prager\"", fix);
         }

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod boundaries;
+mod contacts;
 mod cost;
 mod materials;
 mod sections;
@@ -44,6 +45,7 @@ pub fn validate(case: &Case) -> Findings {
     checker.materials();
     checker.boundaries();
     checker.bodies();
+    checker.contacts();
     checker.cost();
     let warnings = if checker.problems.is_empty() { warnings::warnings(case) } else { Vec::new() };
     Findings { problems: checker.problems, warnings }

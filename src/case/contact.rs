@@ -1,0 +1,77 @@
+//! Contact of two bodies: the `[[contacts]]` tables of a case file.
+
+use serde::{Deserialize, Serialize};
+
+/// The contact of two bodies. Bodies that no contact names stick to each other where they meet; a body that one names needs one
+/// with every other body.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyContact {
+    /// Names of the two bodies.
+    pub bodies: Vec<String>,
+    /// Coulomb friction coefficient (not an angle), not negative.
+    pub friction: f64,
+    /// How the direction of the surface between them is found. Default nearest_face.
+    pub normal: Option<NormalKind>,
+    /// With `nearest_face`: the one of the two that keeps its shape, a barrier for instance. Default the first.
+    pub structure: Option<String>,
+    /// With `prescribed`: direction out of the first body, degrees from the x axis, counter-clockwise.
+    pub normal_deg: Option<f64>,
+    /// How it is decided whether they touch. Default extents.
+    pub gap: Option<GapKind>,
+    /// With `positions`: distance of the mean positions of bodies that touch, in cells, positive. Default 0.8.
+    pub offset_cells: Option<f64>,
+}
+
+/// How the direction of the surface between two bodies is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NormalKind {
+    /// From the faces of a structure nearest to the points of the other body.
+    #[default]
+    NearestFace,
+    /// From the volume gradient of the body that has more volume at the node.
+    LargerBody,
+    /// From the difference of both volume gradients.
+    Average,
+    /// By logistic regression between the points of both.
+    Regression,
+    /// Given.
+    Prescribed,
+}
+
+/// How it is decided whether two bodies touch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GapKind {
+    /// From the points nearest to the surface and their size.
+    #[default]
+    Extents,
+    /// From mean positions at the node.
+    Positions,
+    /// From displacements since the start, for bodies that touch then.
+    Displacements,
+    /// They touch where they reach the same node and approach.
+    Approach,
+}
+
+impl BodyContact {
+    /// Distance of the mean positions of bodies that touch, in cells, when none is given.
+    pub const DEFAULT_OFFSET_CELLS: f64 = 0.8;
+
+    /// Name of the structure, for `nearest_face`; `None` for a contact without bodies, which validation refuses.
+    pub fn structure_name(&self) -> Option<&str> {
+        self.structure.as_deref().or(self.bodies.first().map(String::as_str))
+    }
+
+    pub(super) fn resolve(&mut self) {
+        let normal = *self.normal.get_or_insert_default();
+        let gap = *self.gap.get_or_insert_default();
+        if normal == NormalKind::NearestFace {
+            self.structure = self.structure_name().map(str::to_owned);
+        }
+        if gap == GapKind::Positions {
+            self.offset_cells.get_or_insert(Self::DEFAULT_OFFSET_CELLS);
+        }
+    }
+}

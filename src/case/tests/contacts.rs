@@ -1,0 +1,108 @@
+//! Contacts of bodies, clamps and bodies of boundaries, added to the 40 degree case.
+
+use super::{FLUME, parse, report_of};
+use crate::case::{GapKind, NormalKind};
+
+const BARRIER: &str = r#"
+[[bodies]]
+name = "fence"
+material = "plastic"
+x_m = [1.4, 1.5]
+y_m = [-0.02, 0.3]
+
+[[boundaries]]
+name = "clamp"
+kind = "plane"
+point_m = [1.4, 0.0]
+normal_deg = 90
+contact = "bonded"
+bodies = ["fence"]
+
+[materials.plastic]
+law = "neo_hookean"
+density_kg_per_m3 = 1200
+young_pa = 5.0e5
+poisson = 0.2
+"#;
+
+const CONTACT: &str = "\n[[contacts]]\nbodies = [\"fence\", \"sand\"]\nfriction = 0.4\n";
+
+/// The 40 degree case with a fence whose clamp does not meet the sand, and the base for the sand alone.
+fn with(contact: &str) -> String {
+    let base = FLUME.replacen("name = \"base\"", "name = \"base\"\nbodies = [\"sand\"]", 1);
+    format!("{base}{BARRIER}{contact}")
+}
+
+#[test]
+fn a_fence_in_contact_loads_with_its_defaults() {
+    let loaded = parse(&with(CONTACT), "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    let [contact] = &loaded.case.contacts[..] else { panic!("{:?}", loaded.case.contacts) };
+    assert_eq!((contact.normal, contact.gap), (Some(NormalKind::NearestFace), Some(GapKind::Extents)));
+    assert_eq!(contact.structure.as_deref(), Some("fence"));
+    let text = loaded.case.to_toml().expect("TOML");
+    assert_eq!(parse(&text, "again.toml").expect("the same").case, loaded.case);
+}
+
+#[test]
+fn what_is_wrong_with_a_contact_is_said() {
+    let line = |replace: &str, by: &str| with(&CONTACT.replacen(replace, by, 1));
+    for (text, parts) in [
+        (line("\"sand\"]", "\"snad\"]"), vec!["contacts[0].bodies[1] = \"snad\"", "sand"]),
+        (line(", \"sand\"]", "]"), vec!["contacts[0].bodies", "two names", "name two bodies"]),
+        (line("\"sand\"]", "\"fence\"]"), vec!["two different bodies"]),
+        (line("0.4", "-0.4"), vec!["contacts[0].friction = -0.4", "friction >= 0"]),
+        (line("friction = 0.4", ""), vec!["contacts.friction is missing"]),
+        (with(&format!("{CONTACT}{CONTACT}")), vec!["contacts[1].bodies", "contacts[0] has the same two bodies"]),
+        (
+            with(&format!("{CONTACT}structure = \"gate\"\n")),
+            vec!["contacts[0].structure = \"gate\"", "one of the two bodies"],
+        ),
+        (with(&format!("{CONTACT}normal = \"average\"\nstructure = \"fence\"\n")), vec!["is not used", "nearest_face"]),
+        (
+            with(&format!("{CONTACT}normal = \"prescribed\"\n")),
+            vec!["contacts[0].normal_deg is missing", "normal_deg = 90"],
+        ),
+        (with(&format!("{CONTACT}normal_deg = 90\n")), vec!["normal_deg = 90.0 is not used", "prescribed"]),
+        (with(&format!("{CONTACT}offset_cells = 0.8\n")), vec!["offset_cells = 0.8 is not used", "positions"]),
+        (with(&format!("{CONTACT}gap = \"positions\"\noffset_cells = -1\n")), vec!["offset_cells > 0"]),
+        (with(&format!("{CONTACT}frictoin = 0.4\n")), vec!["frictoin", "friction"]),
+        (
+            with(CONTACT).replacen("bodies = [\"fence\"]", "bodies = [\"fenc\"]", 1),
+            vec!["boundaries[4].bodies[0]", "fence"],
+        ),
+        (with(CONTACT).replacen("bodies = [\"fence\"]", "bodies = []", 1), vec!["at least one name"]),
+        (
+            with(CONTACT).replacen("contact = \"bonded\"", "contact = \"bonded\"\nfriction = 1", 1),
+            vec!["does not belong to contact = \"bonded\""],
+        ),
+        (
+            with(CONTACT).replacen("poisson = 0.2", "poisson = 0.2\ncohesion_pa = 1", 1),
+            vec!["is not used by law = \"neo_hookean\""],
+        ),
+        (
+            with(&CONTACT.replacen("[[contacts]]", "[contacts]", 1)),
+            vec!["contacts is not a list of tables", "[[contacts]]"],
+        ),
+    ] {
+        let report = report_of(&text);
+        println!("{report}");
+        assert!(report.contains(" = fix: "), "{report}");
+        for part in parts {
+            assert!(report.contains(part), "no {part:?} in\n{report}");
+        }
+    }
+}
+
+#[test]
+fn no_body_may_be_forgotten() {
+    let third = BARRIER
+        .split("[[boundaries]]")
+        .next()
+        .expect("a body")
+        .replace("fence", "stone")
+        .replace("1.4, 1.5", "1.6, 1.7");
+    let report = report_of(&with(&format!("{CONTACT}{}", third.replace("-0.02", "0.0"))));
+    for part in ["passes through every body", "add [[contacts]] with bodies = [\"sand\", \"stone\"]"] {
+        assert!(report.contains(part), "{report}");
+    }
+}

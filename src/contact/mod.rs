@@ -1,0 +1,44 @@
+//! Contact between bodies that have velocity fields of their own.
+//!
+//! Where the points of two bodies reach the same node, the node carries the mass and momentum of each. Contact compares the
+//! two velocities after the momentum balance, finds an impulse that keeps the bodies from moving into each other, with Coulomb
+//! friction along the surface between them, and gives it to both with opposite signs (Bardenhagen, Brackbill and Sulsky 2000;
+//! Ng et al., Appendix B).
+//!
+//! - [`pair`] is the law for two bodies: impulse, stick and slip, work; [`node`] solves it for any number of bodies at a node.
+//! - [`normal`], [`regression`] and [`outline`] say how the surface lies, [`separation`] how far apart the bodies are.
+//!
+//! - [`rule`] is what a user chooses.
+//!
+//! Everything here is a function of what a node or a few points know; nothing imports the grid.
+
+pub mod node;
+pub mod normal;
+pub mod outline;
+pub mod pair;
+pub mod regression;
+pub mod rule;
+pub mod separation;
+
+#[cfg(test)]
+mod tests;
+
+/// A vector in the plane.
+pub type Vector = [f64; 2];
+
+#[inline(always)]
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[inline(always)]
+fn minus(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// The unit vector along `a`; none where `a` is not longer than `least`.
+#[inline]
+pub fn direction(a: Vector, least: f64) -> Option<Vector> {
+    let length = dot(a, a).sqrt();
+    (length > least).then(|| [a[0] / length, a[1] / length])
+}

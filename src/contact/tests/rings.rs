@@ -1,0 +1,138 @@
+//! Outlines of lattices, and distances from them.
+
+use crate::contact::outline::{Nearest, Outline, Surface, nearest, penetration};
+use crate::contact::{Vector, dot, minus};
+
+const S: f64 = 0.05;
+
+/// Points of a lattice whose cells satisfy a condition, turned by `angle` about the origin.
+fn lattice(n: [i32; 2], angle: f64, keep: impl Fn(i32, i32) -> bool) -> Vec<(u32, Vector)> {
+    let (c, s) = (libm::cos(angle), libm::sin(angle));
+    let mut points = Vec::new();
+    for j in 0..n[1] {
+        for i in 0..n[0] {
+            if keep(i, j) {
+                let (x, y) = (S * (f64::from(i) + 0.5), S * (f64::from(j) + 0.5));
+                points.push(((i + n[0] * j) as u32, [c * x - s * y, s * x + c * y]));
+            }
+        }
+    }
+    points
+}
+
+fn places(ring: &[u32], points: &[(u32, Vector)]) -> Vec<Vector> {
+    ring.iter().map(|id| points.iter().find(|p| p.0 == *id).expect("a point").1).collect()
+}
+
+fn area(ring: &[Vector]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
+}
+
+#[test]
+fn the_ring_of_a_rectangle_at_any_angle() {
+    for angle in [0.0, 0.4, -2.0] {
+        let points = lattice([12, 5], angle, |_, _| true);
+        let outline = Outline::trace(&points, S, angle);
+        let [ring] = &outline.rings[..] else { panic!("{outline:?}") };
+        assert_eq!(ring.len(), 2 * (12 + 5) - 4);
+        assert_eq!(outline.points().len(), ring.len());
+        let enclosed = area(&places(ring, &points));
+        assert!((enclosed - 11.0 * 4.0 * S * S).abs() < 1e-12, "counter-clockwise, through the points: {enclosed}");
+    }
+}
+
+#[test]
+fn rings_of_other_shapes() {
+    // The point in the re-entrant corner of an L has no free side, the ring passes it; a frame has a hole, traced clockwise; a thin strip is walked there and back.
+    let l = Outline::trace(&lattice([6, 6], 0.0, |i, j| i < 3 || j < 3), S, 0.0);
+    assert_eq!((l.rings.len(), l.rings[0].len()), (1, 19));
+    let points = lattice([6, 6], 0.0, |i, j| !(2..4).contains(&i) || !(2..4).contains(&j));
+    let frame = Outline::trace(&points, S, 0.0);
+    let areas: Vec<f64> = frame.rings.iter().map(|r| area(&places(r, &points))).collect();
+    assert_eq!(frame.rings.len(), 2);
+    assert!(areas.iter().any(|&a| a > 0.0) && areas.iter().any(|&a| a < 0.0), "{areas:?}");
+    let strip = Outline::trace(&lattice([5, 1], 0.0, |_, _| true), S, 0.0);
+    assert_eq!((strip.rings[0].len(), strip.points().len()), (8, 5));
+    let apart = Outline::trace(&lattice([5, 2], 0.0, |i, _| i != 2), S, 0.0);
+    assert_eq!(apart.rings.len(), 2);
+    assert_eq!(Outline::trace(&[], S, 0.0), Outline::default());
+    assert_eq!(Outline::trace(&[(7, [1.0, 2.0])], S, 0.0).rings, [[7]]);
+}
+
+#[test]
+fn distances_from_a_rectangle() {
+    let angle = 0.5;
+    let (c, s) = (libm::cos(angle), libm::sin(angle));
+    let turned = |x: Vector| [c * x[0] - s * x[1], s * x[0] + c * x[1]];
+    let points = lattice([12, 5], angle, |_, _| true);
+    let ring = places(&Outline::trace(&points, S, angle).rings[0], &points);
+    let (length, height) = (12.0 * S, 5.0 * S);
+    for (at, distance, normal) in [
+        ([0.3, height + 0.02], 0.02, [0.0, 1.0]),
+        ([0.3, -0.3], 0.3, [0.0, -1.0]),
+        ([length + 0.01, 0.1], 0.01, [1.0, 0.0]),
+        ([-0.4, 0.1], 0.4, [-1.0, 0.0]),
+        // Between surface and ring, on the ring, and well inside.
+        ([0.3, height - 0.01], -0.01, [0.0, 1.0]),
+        ([0.31, height - 0.5 * S], -0.5 * S, [0.0, 1.0]),
+        ([length - 0.06, 0.1], -0.06, [1.0, 0.0]),
+    ] {
+        let Nearest { distance: d, normal: n, .. } = nearest(&ring, 0.5 * S, turned(at)).expect("a ring");
+        assert!((d - distance).abs() < 1e-12, "{at:?}: {d}");
+        assert!(dot(n, turned(normal)) > 1.0 - 1e-12, "{at:?}: {n:?}");
+        let deep = penetration(&ring, 0.5 * S, turned(at), 0.02);
+        assert!((deep - (0.02 - distance).max(0.0)).abs() < 1e-12);
+    }
+    assert_eq!(nearest(&[], S, [0.0; 2]), None);
+    assert_eq!(Surface::default().nearest([0.0; 2]), None);
+}
+
+#[test]
+fn a_bent_bar_keeps_its_surface() {
+    // A bar of 40 by 6 points bent into a quarter of a ring of mean radius R: its faces lie at R -/+ half its depth.
+    let (n, depth) = (40, 6);
+    let length = f64::from(n) * S;
+    let radius = length / std::f64::consts::FRAC_PI_2;
+    let straight = lattice([n, depth], 0.0, |_, _| true);
+    let bent: Vec<(u32, Vector)> = straight
+        .iter()
+        .map(|&(id, x)| {
+            let (r, t) = (radius + x[1] - 0.5 * f64::from(depth) * S, x[0] / radius);
+            (id, [r * libm::sin(t), r * libm::cos(t)])
+        })
+        .collect();
+    let ring = places(&Outline::trace(&straight, S, 0.0).rings[0], &bent);
+    let outer = radius + 0.5 * f64::from(depth) * S;
+    let mut worst = [0.0f64; 2];
+    for k in 0..200 {
+        let t = 0.2 + 1.1 * f64::from(k) / 200.0;
+        let out = [libm::sin(t), libm::cos(t)];
+        let seen = nearest(&ring, 0.5 * S, out.map(|c| (outer + 0.03) * c)).expect("a ring");
+        worst[0] = worst[0].max((seen.distance - 0.03).abs() / S);
+        worst[1] = worst[1].max(libm::acos(dot(seen.normal, out).min(1.0)).to_degrees());
+        assert!(minus(seen.foot, out.map(|c| (outer - 0.5 * S) * c)).iter().all(|e| e.abs() < S));
+    }
+    println!("largest errors: distance {:.4} spacings, normal {:.2} degrees", worst[0], worst[1]);
+    // Chords of length S on the outer ring sag by S^2/8R; a normal is off by half the turn between two chords.
+    assert!(worst[0] < 0.15 * S / radius * 1.5 && worst[1] < 0.6 * (S / radius).to_degrees());
+}
+
+#[test]
+fn boxes_find_what_a_full_search_finds() {
+    let shape = |i: i32, j: i32| i < 6 || j < 4 || (i > 18 && j > 9);
+    let points = lattice([24, 14], 0.3, shape);
+    for ring in Outline::trace(&points, S, 0.3).rings {
+        let ring = places(&ring, &points);
+        let mut surface = Surface::new(0.5 * S);
+        surface.follow(ring.iter().copied());
+        for k in 0..3000 {
+            let x = [-0.9 + 0.04 * f64::from(k % 60), -0.2 + 0.043 * f64::from(k / 60)];
+            let (a, b) = (nearest(&ring, 0.5 * S, x).expect("a ring"), surface.nearest(x).expect("a ring"));
+            assert!((a.distance - b.distance).abs() < 1e-12, "{x:?} {a:?} {b:?}");
+            // Where two places are equally near, either normal is right.
+            let apart = minus(a.foot, b.foot);
+            assert!(dot(apart, apart) > 1e-12 || dot(a.normal, b.normal) > 1.0 - 1e-9, "{x:?} {a:?} {b:?}");
+        }
+    }
+}

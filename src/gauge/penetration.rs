@@ -1,0 +1,86 @@
+//! How deep material lies inside a structure: the gauge that tells whether contact held.
+//!
+//! The structure's surface is followed through its outermost points, see [`Outline`]. A barrier whose contact works is entered
+//! by less than a cell; a leaking one lets material through, and its force means nothing.
+
+use crate::contact::outline::{Outline, penetration};
+use crate::simulation::Simulation;
+
+/// How deep the points of other bodies lie inside a structure.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Penetration {
+    /// Largest depth of a point's domain below the surface, m; 0 when none is inside.
+    pub deepest: f64,
+    /// Where that point is, m.
+    pub at: [f64; 2],
+    /// Mass of the points whose middle lies below the surface by more than `beyond`, kg.
+    pub mass_beyond: f64,
+}
+
+/// Measures all points of other bodies against the body `structure` with its `outline`; `beyond` in m.
+pub fn measure(simulation: &Simulation, structure: usize, outline: &Outline, beyond: f64) -> Penetration {
+    let bodies = simulation.bodies();
+    let radius = 0.5 * bodies[structure].point_spacing;
+    let numbers = outline.points();
+    let mut places = vec![None; numbers.len()];
+    for (_, p) in simulation.particles().filter(|(b, _)| *b == structure) {
+        if let Ok(k) = numbers.binary_search(&p.id) {
+            places[k] = Some(p.x);
+        }
+    }
+    // A point that left the domain leaves the ring open between its neighbours, which a straight line closes.
+    let rings = outline.rings.iter().map(|ring| {
+        let place = |id: &u32| numbers.binary_search(id).ok().and_then(|k| places[k]);
+        ring.iter().filter_map(place).collect::<Vec<_>>()
+    });
+    let mut found = Penetration::default();
+    for ring in rings.filter(|ring| ring.len() > 1) {
+        let reach = bodies.iter().fold(radius, |a, b| a.max(0.5 * b.point_spacing)) + radius;
+        let bounds = [0, 1]
+            .map(|d| ring.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x[d]), b.max(x[d])]));
+        for (body, p) in simulation.particles().filter(|(b, _)| *b != structure) {
+            if (0..2).any(|d| p.x[d] < bounds[d][0] - reach || p.x[d] > bounds[d][1] + reach) {
+                continue;
+            }
+            let size = 0.5 * bodies[body].point_spacing;
+            let depth = penetration(&ring, radius, p.x, size);
+            if depth > found.deepest {
+                found.deepest = depth;
+                found.at = p.x;
+            }
+            if depth - size > beyond {
+                found.mass_beyond += bodies[body].point_mass;
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verification::Fault;
+    use crate::verification::scene::{Brick, Material, scene};
+
+    #[test]
+    fn a_brick_pushed_into_another() {
+        let (material, h) = (Material::new(1e6, 0.0, 1000.0), 0.1);
+        let law = material.law(&Fault::NONE);
+        let wall = Brick { angle: 0.3, ..Brick::new([0.0, 0.0], [4, 10], h) };
+        let outline = Outline::trace(&wall.points().iter().map(|p| (p.id, p.x)).collect::<Vec<_>>(), 0.05, 0.3);
+        let (c, s) = (libm::cos(0.3), libm::sin(0.3));
+        for (gap, depth, beyond) in [(0.02, 0.0, 0.0), (0.0, 0.0, 0.0), (-0.03, 0.03, 0.0), (-0.12, 0.12, 2.0)] {
+            // Beside the wall's left face, `gap` away from it; two columns of 4 x 2 points.
+            let at = |a: f64, b: f64| [c * a - s * b, s * a + c * b];
+            let other = Brick { angle: 0.3, ..Brick::new(at(-0.1 - gap, 0.4), [1, 2], h) };
+            let mut scene = scene(&wall, law, material.density, wall.points(), vec![]);
+            scene.bodies.push((other.body(law, material.density), other.points()));
+            let simulation = Simulation::new(scene);
+            let found = measure(&simulation, 0, &outline, 0.05);
+            assert!((found.deepest - depth).abs() < 1e-9, "{gap}: {found:?}");
+            let mass = simulation.bodies()[1].point_mass;
+            // Middles at 0.095 and 0.045 below the surface: one column of four lies deeper than 0.05.
+            assert!((found.mass_beyond - beyond * 2.0 * mass).abs() < 1e-12, "{gap}: {found:?}");
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Contact between velocity fields: finds the nodes that several fields reach, the surfaces between their bodies, and lets them
+//! exchange impulses after the momentum balance (Ng et al., Appendix B).
+//!
+//! Nodes are worked one after the other in the order of the first field, so results do not depend on the number of threads.
+
+mod exchange;
+mod scan;
+mod surface;
+
+use super::field::VelocityField;
+use crate::boundary::nodes::Hold;
+use crate::contact::Vector;
+use crate::contact::pair::Touch;
+use crate::contact::rule::{ContactRule, ContactTally, MAX_SIDES};
+use std::ops::Range;
+use surface::Interface;
+
+/// A node that more than one field reaches.
+#[derive(Debug, Clone)]
+struct SharedNode {
+    /// Position, m.
+    x: Vector,
+    /// Its fields, among all sides.
+    sides: Range<usize>,
+}
+
+/// A field at a shared node: where to find it there.
+#[derive(Debug, Clone)]
+struct SharedSide {
+    field: usize,
+    band: usize,
+    /// Counted from the band's first node.
+    node: usize,
+    /// Place among the band's open nodes.
+    index: usize,
+    /// Among the band's holds.
+    holds: Range<usize>,
+}
+
+/// Two sides of a node that touch in this step.
+#[derive(Debug, Clone, Copy)]
+struct Pending {
+    node: u32,
+    contact: u32,
+    sides: [u8; 2],
+    normal: Vector,
+    slack: f64,
+}
+
+/// A node that was solved with touching bodies, for the velocities that follow.
+#[derive(Debug, Clone)]
+struct Solved {
+    node: usize,
+    touches: Range<usize>,
+    /// For each side of the node: its mass, 0 where it has none, and whether it is clamped.
+    masses: [f64; MAX_SIDES],
+    clamped: [bool; MAX_SIDES],
+}
+
+/// What one pair of bodies did at one node in the last step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactPoint {
+    /// Index of the rule.
+    pub contact: usize,
+    /// Position of the node, m.
+    pub x: Vector,
+    /// Unit normal out of the first body.
+    pub normal: Vector,
+    /// Impulse on the second body, N s.
+    pub impulse: Vector,
+}
+
+/// All contacts of a simulation.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Coupling {
+    interfaces: Vec<Interface>,
+    nodes: Vec<SharedNode>,
+    sides: Vec<SharedSide>,
+    pending: Vec<Pending>,
+    touches: Vec<Touch>,
+    solved: Vec<Solved>,
+    holds: Vec<Hold>,
+    points: Vec<ContactPoint>,
+    /// Whether a field was sorted anew or its boundaries have changed.
+    pub stale: bool,
+}
+
+impl Coupling {
+    /// Contacts by `rules` between fields that each hold one body.
+    pub fn new(rules: &[ContactRule], fields: &[VelocityField]) -> Self {
+        let interfaces = rules.iter().enumerate().map(|(k, rule)| Interface::new(k, *rule, fields)).collect();
+        Self { interfaces, stale: true, ..Self::default() }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.interfaces.is_empty()
+    }
+
+    /// The rules.
+    pub fn rules(&self) -> impl Iterator<Item = &ContactRule> {
+        self.interfaces.iter().map(|i| &i.rule)
+    }
+
+    /// What the two bodies of each rule did to each other in the last step.
+    pub fn tallies(&self) -> impl Iterator<Item = &ContactTally> {
+        self.interfaces.iter().map(|i| &i.tally)
+    }
+
+    /// Where bodies touched in the last step.
+    pub fn points(&self) -> &[ContactPoint] {
+        &self.points
+    }
+
+    /// Changes the friction coefficient of a rule.
+    pub fn set_friction(&mut self, contact: usize, friction: f64) {
+        self.interfaces[contact].set_friction(friction);
+    }
+
+    /// Follows a new layout of the fields.
+    pub fn rebuild(&mut self, fields: &mut [VelocityField]) {
+        self.stale = false;
+        self.solved.clear();
+        self.find_shared(fields);
+        for interface in &mut self.interfaces {
+            interface.rebuild(fields, &self.nodes, &self.sides);
+        }
+        let pairs = self.interfaces.iter().map(Interface::len).sum();
+        let holds = self.nodes.iter().map(|n| self.sides[n.sides.clone()].iter().map(|s| s.holds.len()).sum());
+        self.holds.reserve(holds.max().unwrap_or(0));
+        self.pending.reserve(pairs);
+        self.touches.reserve(pairs);
+        self.points.reserve(pairs);
+        self.solved.reserve(self.nodes.len());
+    }
+
+    /// Lists the nodes that several fields reach, and tells the bands.
+    fn find_shared(&mut self, fields: &mut [VelocityField]) {
+        self.nodes.clear();
+        self.sides.clear();
+        for (f, field) in fields.iter().enumerate() {
+            for (index, x) in field.grid.nodes() {
+                let at = field.grid.place(index);
+                if fields[..f].iter().any(|g| g.grid.find(at).is_some()) {
+                    continue;
+                }
+                let first = self.sides.len();
+                let others = fields.iter().enumerate().skip(f).filter_map(|(g, o)| Some((g, o.grid.find(at)?)));
+                for (g, node) in others.take(MAX_SIDES) {
+                    let bands = &fields[g].bands;
+                    let band = bands.partition_point(|b| b.first_node <= node) - 1;
+                    let held = &bands[band].nodes.holds;
+                    let holds = held.partition_point(|h| (h.node as usize) < node)
+                        ..held.partition_point(|h| h.node as usize <= node);
+                    let node = node - bands[band].first_node;
+                    self.sides.push(SharedSide { field: g, band, node, index: 0, holds });
+                }
+                if self.sides.len() - first > 1 {
+                    self.nodes.push(SharedNode { x, sides: first..self.sides.len() });
+                } else {
+                    self.sides.truncate(first);
+                }
+            }
+        }
+        for band in fields.iter_mut().flat_map(|f| &mut f.bands) {
+            band.nodes.shared.clear();
+        }
+        for side in &self.sides {
+            fields[side.field].bands[side.band].nodes.shared.push(side.node as u32);
+        }
+        for band in fields.iter_mut().flat_map(|f| &mut f.bands) {
+            band.nodes.shared.sort_unstable();
+            band.nodes.open.resize(band.nodes.shared.len(), Default::default());
+        }
+        for side in &mut self.sides {
+            let shared = &fields[side.field].bands[side.band].nodes.shared;
+            side.index = shared.partition_point(|&n| (n as usize) < side.node);
+        }
+    }
+}

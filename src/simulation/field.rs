@@ -1,0 +1,67 @@
+//! Bodies that move as one on the grid: their points, and the nodes they reach.
+
+use crate::band::Band;
+use crate::body::{Body, Particle, Points};
+use crate::boundary::Boundary;
+use crate::boundary::nodes::{self, Hold};
+use crate::grid::ActiveGrid;
+use crate::layout::{Departed, SortRules, Sorter};
+use crate::momentum;
+
+/// A velocity field of the grid. Bodies that share one stick together where they meet.
+#[derive(Debug, Clone, Default)]
+pub(super) struct VelocityField {
+    /// Index of each of its bodies in the simulation.
+    pub members: Vec<usize>,
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// Points and nodes, from left to right.
+    pub bands: Vec<Band>,
+    /// Which nodes there are.
+    pub grid: ActiveGrid,
+    holds: Vec<Hold>,
+    sorter: Sorter,
+    /// Points that left the domain at the last sort, with the index of their body in the simulation.
+    pub departed: Vec<Departed>,
+    /// Farthest that any point can have moved since the last sort, m.
+    pub drift: f64,
+}
+
+impl VelocityField {
+    /// Adds a body with its index in the simulation.
+    pub fn add(&mut self, index: usize, body: Body, particles: &[Particle]) {
+        if self.bands.is_empty() {
+            self.bands.push(Band::default());
+        }
+        let mut points = Points::for_law(&body.law);
+        particles.iter().for_each(|p| points.push(p));
+        self.bands[0].points.push(points);
+        self.bodies.push(body);
+        self.members.push(index);
+    }
+
+    /// Sorts the points into bands anew and finds what holds the nodes. `rules` lacks the bodies.
+    pub fn sort(&mut self, rules: &SortRules, boundaries: &[Boundary]) {
+        let rules = SortRules { bodies: &self.bodies, ..*rules };
+        self.departed.clear();
+        self.sorter.sort(&rules, &mut self.bands, &mut self.grid, &mut self.departed);
+        for departed in &mut self.departed {
+            departed.body = self.members[departed.body];
+        }
+        self.find_holds(boundaries);
+        self.drift = 0.0;
+    }
+
+    /// Finds what holds each node.
+    pub fn find_holds(&mut self, boundaries: &[Boundary]) {
+        nodes::find_holds(boundaries, &self.members, &self.grid, &mut self.holds);
+        momentum::distribute_holds(&self.holds, boundaries.len(), &mut self.bands);
+    }
+
+    /// All points with the index of their body in the simulation.
+    pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
+        self.bands.iter().flat_map(|band| {
+            self.members.iter().zip(&band.points).flat_map(|(&body, points)| points.iter().map(move |p| (body, p)))
+        })
+    }
+}

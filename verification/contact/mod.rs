@@ -1,0 +1,90 @@
+//! Contact of bodies that have velocity fields of their own: bars that strike each other, a block on an elastic base, sand
+//! against an elastic wall.
+//!
+//! What is judged is the way a user gets: normals from the faces of the structure nearest to the other body's points, gaps from
+//! the points' extents. The table shows the others beside it. Gradients take a corner for a face: at the heel and toe of a block
+//! they hold it fast. Regression does so less. Mean positions let bodies into each other by a share of a cell that depends on
+//! where the surface lies between the nodes, and take energy for it. Approach alone stops bodies up to a cell too early.
+
+mod bars;
+mod block;
+mod deposit;
+mod scenes;
+
+use super::report::named_csv;
+use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::contact::rule::GapRule;
+use scenes::{GAPS, NORMALS, rule};
+
+/// The rung.
+pub const RUNG: Rung = Rung {
+    name: "contact",
+    title: "Bodies in contact: bars that strike each other, a block on an elastic base, sand against an elastic wall",
+    run,
+    covers: &[(FaultKind::Friction, 1.05), (FaultKind::ContactForce, 1.05), (FaultKind::Gravity, 1.05)],
+    under_fault: "equal bars, and the first block",
+};
+
+fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
+    let mut outcome = Outcome::default();
+    let mut rows = Vec::new();
+    bars::run(fault, &mut outcome, &mut rows)?;
+    let header = ["second_bar", "time_over_contact", "force_over_first", "force_exact_over_first"];
+    let names = bars::names();
+    outcome.tables.push(("contact_bars".into(), named_csv(&header, &[("second_bar", &names)], rows)));
+    block::run(fault, &mut outcome)?;
+    if *fault == Fault::NONE {
+        deposit::run(fault, &mut outcome)?;
+        options(&mut outcome);
+    }
+    Ok(outcome)
+}
+
+/// All ways to find normals and gaps, on the bars, the block and the deposit; NaN where a run breaks down.
+fn options(outcome: &mut Outcome) {
+    let setting = block::Setting { tilt: 23f64.to_radians(), slope: 40f64.to_radians(), friction: 0.4, pic: 1.0 };
+    let equal = ("", super::scene::Material::new(1e6, 0.0, 1000.0), 1.0);
+    let mut rows = Vec::new();
+    for (n, (_, normal)) in NORMALS.into_iter().enumerate() {
+        for (g, (_, gap)) in GAPS.into_iter().enumerate() {
+            let none = &Fault::NONE;
+            let with = |friction| rule(friction, normal, gap);
+            let mut row = vec![n as f64, g as f64];
+            row.extend(match bars::strike(&equal, 50, 0.3, with(0.4), none) {
+                Ok(b) => [b.force, b.impulse, b.early, b.loss, b.residual],
+                Err(_) => [f64::NAN; 5],
+            });
+            row.extend(match block::slide(&setting, with(0.4), none) {
+                Ok(b) => [b.displacement, b.tangential, b.rise, b.residual],
+                Err(_) => [f64::NAN; 4],
+            });
+            // Sand has no start that it was in contact at.
+            let sand = (gap != GapRule::Displacements).then(|| deposit::run_against(5e5, with(0.4), 0.8, none));
+            row.extend(match sand {
+                Some(Ok(d)) => [d.force[0], d.force[1], d.deepest, d.residual],
+                _ => [f64::NAN; 4],
+            });
+            rows.push(row);
+        }
+    }
+    let header = [
+        "normal",
+        "gap",
+        "bars_force_over_exact",
+        "bars_impulse_over_exact",
+        "bars_late_steps",
+        "bars_contact_loss",
+        "bars_ledger_residual",
+        "block_displacement_error",
+        "block_friction_over_exact",
+        "block_rise_cells",
+        "block_ledger_residual",
+        "deposit_force_at_rest_n",
+        "deposit_force_peak_n",
+        "deposit_penetration_cells",
+        "deposit_ledger_residual",
+    ];
+    let (normals, gaps) = (NORMALS.map(|n| n.0), GAPS.map(|g| g.0));
+    let codes: [(&str, &[&str]); 2] = [("normal", &normals), ("gap", &gaps)];
+    outcome.tables.push(("contact_options".into(), named_csv(&header, &codes, rows)));
+}
