@@ -1,5 +1,6 @@
 //! Front, depth, velocity, run-up and overtopping.
 
+use crate::boundary::{Boundary, Friction};
 use crate::simulation::Simulation;
 
 /// Share of the mass ahead of what counts as the front: single grains do not.
@@ -101,11 +102,13 @@ pub fn wall_state(simulation: &Simulation, boundary: usize) -> WallState {
     state
 }
 
-/// Deepest that any point lies inside any boundary, m, and the boundary's index.
+/// Deepest that any point lies inside any boundary that acts on it, m, and the boundary's index. Clamps hold what lies in them and
+/// do not count.
 pub fn penetration(simulation: &Simulation) -> (f64, usize) {
     let mut deepest = (0.0, 0);
-    for (index, b) in simulation.boundaries().iter().enumerate().filter(|(_, b)| !b.is_gone()) {
-        for (_, p) in simulation.particles() {
+    let solid = |b: &Boundary| !b.is_gone() && b.friction != Friction::Bonded;
+    for (index, b) in simulation.boundaries().iter().enumerate().filter(|(_, b)| solid(b)) {
+        for (_, p) in simulation.particles().filter(|(body, _)| b.acts_on(&[*body])) {
             let depth = b.depth(p.x);
             if depth > deepest.0 {
                 deepest = (depth, index);

@@ -164,8 +164,11 @@ fn penetration_finds_the_deepest_point_and_skips_gates_that_are_gone() {
     }
     let mut gate = plane(0.0).gate(Opening::Vanish);
     gate.release();
-    let sim = simulation(0.1, [points, heavy], vec![gate, plane(-0.0625)]);
+    let sim = simulation(0.1, [points.clone(), heavy.clone()], vec![gate, plane(-0.0625)]);
     assert_eq!(penetration(&sim), (0.1875, 1));
+    let clamp = Boundary { friction: Friction::Bonded, ..plane(0.0) };
+    let sim = simulation(0.1, [points, heavy], vec![clamp, plane(0.0).only_for(&[1])]);
+    assert_eq!(penetration(&sim), (0.125, 1), "clamps hold what lies in them; others act on their bodies alone");
 }
 
 #[test]

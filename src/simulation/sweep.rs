@@ -28,6 +28,11 @@ fn lag<S>(stages: &[(On, S)], stage: usize) -> usize {
     stages[..=stage].windows(2).filter(|w| w[0].0 == On::Nodes && w[1].0 == On::Points).count()
 }
 
+/// Bands before a seam that what is left around it needs: those by which stages lag, and for a node stage the band before.
+fn left_of_seam<S>(stages: &[(On, S)]) -> usize {
+    (0..stages.len()).map(|k| lag(stages, k) + usize::from(stages[k].0 == On::Nodes)).max().unwrap_or(0)
+}
+
 /// Does all stages on all bands; `work` does one of them on one band. Node stages are given the band before it as well.
 pub fn sweep<S: Sync>(
     stages: &[(On, S)],
@@ -35,7 +40,7 @@ pub fn sweep<S: Sync>(
     work: &(impl Fn(&S, Option<&mut Band>, &mut Band) + Sync),
 ) {
     let threads = rayon::current_num_threads();
-    let longest = stages.len().checked_sub(1).map_or(0, |last| lag(stages, last));
+    let longest = left_of_seam(stages);
     let parts = threads.min(bands.len() / PART_BANDS.max(2 * longest)).min(MAX_PARTS);
     if parts < 2 {
         return part(stages, bands, [false; 2], work);
@@ -148,13 +153,14 @@ mod tests {
     const STAGES: &[(On, usize)] =
         &[(On::Points, 0), (On::Nodes, 1), (On::Points, 2), (On::Nodes, 3), (On::Points, 4), (On::Points, 5)];
 
-    /// Runs a sweep on `bands` bands with `threads` threads and checks that every stage finds done what it needs.
-    fn check(bands: usize, threads: usize) {
+    /// Runs one sweep, or several with a part of the stages each, on `bands` bands with `threads` threads and checks that every
+    /// stage finds done what it needs.
+    fn check(bands: usize, threads: usize, sweeps: &[&[(On, usize)]]) {
         let mut all: Vec<Band> = (0..bands).map(|k| Band { first_node: k, ..Band::default() }).collect();
         let done = Mutex::new(vec![[false; 6]; bands]);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            sweep(STAGES, &mut all, &|&stage, before, band| {
+            let work = |&stage: &usize, before: Option<&mut Band>, band: &mut Band| {
                 let k = band.first_node;
                 if STAGES[stage].0 == On::Nodes {
                     assert_eq!(before.map(|b| b.first_node), k.checked_sub(1), "the band before {k}");
@@ -173,16 +179,19 @@ mod tests {
                 }
                 assert!(!done[k][stage], "stage {stage} twice on band {k}");
                 done[k][stage] = true;
-            });
+            };
+            sweeps.iter().for_each(|stages| sweep(stages, &mut all, &work));
         });
         assert!(done.lock().expect("no panic").iter().flatten().all(|&d| d), "{bands} bands, {threads} threads");
     }
 
     #[test]
     fn every_stage_is_done_once_and_in_order() {
+        let parts: Vec<_> = STAGES.split_inclusive(|(on, _)| *on == On::Nodes).collect();
         for threads in 1..=5 {
             for bands in [0, 1, 2, 3, 5, 11, 12, 13, 30, 47] {
-                check(bands, threads);
+                check(bands, threads, &[STAGES]);
+                check(bands, threads, &parts);
             }
         }
     }

@@ -88,3 +88,58 @@ fn options(outcome: &mut Outcome) {
     let codes: [(&str, &[&str]); 2] = [("normal", &normals), ("gap", &gaps)];
     outcome.tables.push(("contact_options".into(), named_csv(&header, &codes, rows)));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::scenes::{Part, several, usual};
+    use crate::body::Particle;
+    use crate::simulation::Simulation;
+    use crate::verification::Fault;
+    use crate::verification::scene::{Brick, Material};
+
+    /// A block that is thrown on a long bed, both in many bands, after eighty steps.
+    fn thrown(threads: usize) -> (Vec<(usize, Particle)>, usize) {
+        let (h, stone) = (0.01, Material::new(1e6, 0.2, 1000.0));
+        let bed = Part::new(Brick::new([0.0, -0.08], [160, 8], h), stone);
+        let block = Part::new(Brick::new([0.031, 0.0], [140, 10], h), stone).moving([3.0, -0.5]);
+        let mut sim = Simulation::new(several(vec![bed, block], vec![usual(0.4)], vec![], &Fault::NONE));
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let touching = pool.install(|| {
+            let mut step = || {
+                sim.step().expect("a step");
+                sim.contact_points().len()
+            };
+            (0..80).map(|_| step()).max().unwrap_or(0)
+        });
+        let mut points: Vec<_> = sim.particles().collect();
+        points.sort_by_key(|(body, p)| (*body, p.id));
+        (points, touching)
+    }
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_bits() {
+        let (one, touching) = thrown(1);
+        assert!(touching > 100, "{touching}");
+        for threads in [2, 3, 5] {
+            assert!(thrown(threads).0 == one, "{threads} threads");
+        }
+    }
+
+    #[test]
+    fn bodies_far_apart_move_as_if_there_were_no_contact() {
+        let moved = |contact: bool| {
+            let (h, stone) = (0.05, Material::new(1e6, 0.2, 1000.0));
+            let part = |x: f64| Part::new(Brick::new([x, 0.01], [6, 4], h), stone).moving([0.3, x]);
+            let contacts = if contact { vec![usual(0.4)] } else { vec![] };
+            let mut sim = Simulation::new(several(vec![part(0.0), part(3.0)], contacts, vec![], &Fault::NONE));
+            (0..100).for_each(|_| sim.step().expect("a step"));
+            let mut points: Vec<_> = sim.particles().collect();
+            points.sort_by_key(|(body, p)| (*body, p.id));
+            points
+        };
+        for ((_, a), (_, b)) in moved(true).iter().zip(moved(false)) {
+            let near = |a: [f64; 2], b: [f64; 2]| (0..2).all(|d| (a[d] - b[d]).abs() < 1e-12);
+            assert!(near(a.x, b.x) && near(a.v, b.v), "{a:?} {b:?}");
+        }
+    }
+}

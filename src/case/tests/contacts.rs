@@ -62,7 +62,7 @@ fn what_is_wrong_with_a_contact_is_said() {
             with(&format!("{CONTACT}normal = \"prescribed\"\n")),
             vec!["contacts[0].normal_deg is missing", "normal_deg = 90"],
         ),
-        (with(&format!("{CONTACT}normal_deg = 90\n")), vec!["normal_deg = 90.0 is not used", "prescribed"]),
+        (with(&format!("{CONTACT}normal_deg = 90\n")), vec!["normal_deg = 90 is not used", "prescribed"]),
         (with(&format!("{CONTACT}offset_cells = 0.8\n")), vec!["offset_cells = 0.8 is not used", "positions"]),
         (with(&format!("{CONTACT}gap = \"positions\"\noffset_cells = -1\n")), vec!["offset_cells > 0"]),
         (with(&format!("{CONTACT}frictoin = 0.4\n")), vec!["frictoin", "friction"]),

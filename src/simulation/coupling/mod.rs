@@ -121,6 +121,10 @@ impl Coupling {
     pub fn rebuild(&mut self, fields: &mut [VelocityField]) {
         self.stale = false;
         self.solved.clear();
+        self.pending.clear();
+        self.touches.clear();
+        self.points.clear();
+        self.holds.clear();
         self.find_shared(fields);
         for interface in &mut self.interfaces {
             interface.rebuild(fields, &self.nodes, &self.sides);

@@ -41,8 +41,11 @@ pub(super) struct Interface {
     active: Vec<usize>,
     marks: [Marks; 2],
     outline: Outline,
+    /// Numbers of its points, ascending, and where each is now: its band and its place there.
+    numbers: Vec<u32>,
+    found: Vec<Option<(usize, usize)>>,
     surfaces: Vec<Surface>,
-    /// For each point of the outline, its band and its place there.
+    /// The same for each point along the rings.
     places: Vec<(usize, usize)>,
     /// Positions at the start by number, m, where displacements count.
     starts: [Vec<Vector>; 2],
@@ -79,6 +82,8 @@ impl Interface {
             views: Vec::new(),
             active: Vec::new(),
             marks: Default::default(),
+            numbers: outline.points(),
+            found: Vec::new(),
             outline,
             surfaces,
             places: Vec::new(),
@@ -117,6 +122,7 @@ impl Interface {
             }
             self.views.push(view);
         }
+        self.active.clear();
         self.active.reserve(self.views.len());
         for (marks, &f) in self.marks.iter_mut().zip(&self.fields) {
             marks.rebuild(&fields[f].grid, self.views.len());
@@ -128,8 +134,9 @@ impl Interface {
 
     /// Finds the points of the outline after a sort.
     fn find_outline(&mut self, field: &VelocityField) {
-        let numbers = self.outline.points();
-        let mut found = vec![None; numbers.len()];
+        let Self { outline, numbers, found, places, .. } = self;
+        found.clear();
+        found.resize(numbers.len(), None);
         for (b, band) in field.bands.iter().enumerate() {
             for (i, p) in band.points[0].iter().enumerate() {
                 if let Ok(k) = numbers.binary_search(&p.id) {
@@ -138,12 +145,12 @@ impl Interface {
             }
         }
         // Points that left the domain leave the ring.
-        for ring in &mut self.outline.rings {
+        for ring in &mut outline.rings {
             ring.retain(|id| numbers.binary_search(id).is_ok_and(|k| found[k].is_some()));
         }
-        self.places.clear();
+        places.clear();
         let place = |id: &u32| numbers.binary_search(id).ok().and_then(|k| found[k]);
-        self.places.extend(self.outline.rings.iter().flatten().filter_map(place));
+        places.extend(outline.rings.iter().flatten().filter_map(place));
     }
 
     /// Finds where the bodies touch in this step; `mass` gives the mass of a side of a shared node.
