@@ -62,5 +62,13 @@ fn column(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, flume, column);
+fn barrier(c: &mut Criterion) {
+    let mut group = c.benchmark_group("sand and deformable barrier in contact");
+    group.sample_size(10);
+    for (name, spacing) in [("10 mm", 0.01), ("5 mm", 0.005)] {
+        measure(&mut group, name, &scenes::barrier(spacing));
+    }
+}
+
+criterion_group!(benches, barrier, column, flume);
 criterion_main!(benches);

@@ -4,7 +4,8 @@
 
 use checkdam::body::{Body, Particle};
 use checkdam::boundary::{Boundary, Friction};
-use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic, NeoHookean};
+use checkdam::contact::rule::ContactRule;
 use checkdam::grid::Lattice;
 use checkdam::run::Experiment;
 use checkdam::shape::ShapeFunction;
@@ -75,6 +76,65 @@ pub fn flume(spacing: f64) -> Simulation {
     experiment.prepare(&mut |_| true).expect("the sand settles");
     let mut simulation = experiment.release().clone();
     while simulation.time() < 0.5 {
+        simulation.step().expect("a step");
+    }
+    simulation
+}
+
+/// A metre of sand, 0.1 m deep, that has slid down a bed of 60 degrees against an elastic cantilever, 0.6 m by 0.1 m, clamped below
+/// the bed, in frictional contact; 0.1 s after they met.
+pub fn barrier(spacing: f64) -> Simulation {
+    let step = spacing / PER_CELL as f64;
+    let volume = step * step * THICKNESS;
+    let brick = |corner: [f64; 2], size: [f64; 2], v: [f64; 2]| -> Vec<Particle> {
+        let [nx, ny] = size.map(|s| (s / step).round() as usize);
+        (0..nx * ny)
+            .map(|k| {
+                let (i, j) = ((k % nx) as f64 + 0.5, (k / nx) as f64 + 0.5);
+                let mut p = Particle::at_rest(k as u32, [corner[0] + i * step, corner[1] + j * step]);
+                p.v = v;
+                p
+            })
+            .collect()
+    };
+    let body = |name: &str, law: AnyLaw, density: f64| Body {
+        name: name.into(),
+        law,
+        point_mass: density * volume,
+        point_volume: volume,
+        points_per_direction: PER_CELL,
+        point_spacing: step,
+    };
+    let plane =
+        |name: &str, normal: [f64; 2], friction| Boundary::plane(name, [0.0; 2].into(), normal.into(), friction);
+    let angle = 60f64.to_radians();
+    let mut simulation = Simulation::new(Scene {
+        lattice: Lattice { spacing, origin: [0.0; 2] },
+        thickness: THICKNESS,
+        domain: [[-3.0, 3.0], [-1.0, 3.0]],
+        bodies: vec![
+            (
+                body("barrier", AnyLaw::NeoHookean(NeoHookean::new(1e7, 0.2)), 1200.0),
+                brick([1.0, -0.05], [0.1, 0.65], [0.0; 2]),
+            ),
+            (body("sand", AnyLaw::DruckerPrager(sand()), 1680.0), brick([0.0, 0.0], [1.0, 0.1], [3.0, 0.0])),
+        ],
+        boundaries: vec![
+            plane("bed", [0.0, 1.0], Friction::Coulomb(0.4)).only_for(&[1]),
+            plane("clamp", [0.0, 1.0], Friction::Bonded).only_for(&[0]),
+        ],
+        contacts: vec![ContactRule::with_structure(0, 1, 0.4)],
+        gravity: [9.81 * angle.sin(), -9.81 * angle.cos()],
+        side_wall_friction: 0.0,
+        numerics: Numerics {
+            scheme: Scheme::Musl,
+            shape: ShapeFunction::Ugimp,
+            cfl: 0.3,
+            max_time_step: 1.0,
+            pic: PicShare::Fraction(0.01),
+        },
+    });
+    while simulation.time() < 0.1 {
         simulation.step().expect("a step");
     }
     simulation
