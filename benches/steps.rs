@@ -3,8 +3,8 @@
 //!     cargo bench --bench steps                 # all of it
 //!     cargo bench --bench steps -- flume        # one group
 //!
-//! Criterion prints the time for a few steps and the throughput in elements per second, an element being one particle-step. At
-//! the end of each group stands the memory a point takes.
+//! Criterion prints the time for a few steps and the throughput in elements per second, an element being one particle-step. Before
+//! each scene stands the memory a point takes.
 
 mod scenes;
 

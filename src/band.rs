@@ -35,7 +35,7 @@ impl NodeSum {
     }
 }
 
-/// Nodal fields within reach of a band. All but `mass` and `holds` go on past the nodes that the band owns; `remapped` and
+/// Nodal fields within reach of a band. All but `mass`, `holds`, `shared` and `open` go on past the nodes that the band owns; `remapped` and
 /// `strain_velocity` end with one node more, so that the vectors that read and write three of them at a time may see a fourth.
 #[derive(Debug, Clone, Default)]
 pub struct Nodes {
@@ -97,6 +97,8 @@ impl Nodes {
             + self.mass.capacity() * size_of::<f64>()
             + self.motion.capacity() * size_of::<[f64; 4]>()
             + self.holds.capacity() * size_of::<Hold>()
+            + self.shared.capacity() * size_of::<u32>()
+            + self.open.capacity() * size_of::<OpenNode>()
     }
 }
 

@@ -1,8 +1,8 @@
 //! Runs the transfer loops for the shape function, the law and the processor at hand.
 //!
 //! Every loop is compiled three times: for the plain target, for AVX2 and for AVX-512. Only the width of the vectors differs;
-//! no fused multiply-add is used, so the bits are the same (tested). This is the only `unsafe` of the crate: calling a
-//! function compiled for AVX2 or AVX-512 after the processor has said that it has it.
+//! no fused multiply-add is used, so the bits are the same (tested). Calling a function compiled for AVX2 or AVX-512 is
+//! `unsafe`; it is done after the processor has said that it has it. The only other `unsafe` of the crate is in [`crate::vector`].
 #![allow(unsafe_code)]
 
 use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
