@@ -129,6 +129,10 @@ pub struct Body {
     /// Velocity at the start, m/s, \[x, y\]. Default zero.
     #[serde(default)]
     pub velocity_m_per_s: [f64; 2],
+    /// Whether gravity leaves the body alone, as a barrier whose density is not known may need; only for bodies in
+    /// `contacts`. Default false.
+    #[serde(default)]
+    pub weightless: bool,
     /// The mass the body is meant to have, kg, positive. A check, not an input: refused unless density x area x thickness
     /// gives it to 0.1 %.
     pub mass_kg: Option<f64>,
@@ -190,7 +194,7 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Gauges {
-    /// Name of the boundary whose force is measured.
+    /// Name of the boundary, or of the body in `contacts`, whose force is measured.
     pub barrier: Option<String>,
     /// Name of the boundary whose friction holds the deposit.
     pub base: Option<String>,
