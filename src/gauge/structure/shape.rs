@@ -90,7 +90,7 @@ impl StructureGauge {
 
     fn widest_gap(&self, simulation: &Simulation) -> (f64, f64) {
         let along = self.counts[1];
-        let (spacing, h) = (simulation.bodies()[self.body].point_spacing, simulation.spacing());
+        let h = simulation.spacing();
         let mut widest = (0.0, 0.0);
         for (id, place) in self.points.iter().enumerate() {
             let Some(place) = place else { continue };
@@ -98,7 +98,8 @@ impl StructureGauge {
             for other in [above, Some(id + along)].into_iter().flatten() {
                 let Some(Some(next)) = self.points.get(other) else { continue };
                 let apart = (Vector2::from(next.x) - Vector2::from(place.x)).norm();
-                let gap = (apart - place.stretch.max(next.stretch) * spacing) / h;
+                let before = (Vector2::from(self.start[other]) - Vector2::from(self.start[id])).norm();
+                let gap = (apart - place.stretch.max(next.stretch) * before) / h;
                 if gap > widest.0 {
                     widest = (gap, self.face.face_coordinates(self.start[id]).1);
                 }
