@@ -120,10 +120,36 @@ fn a_barrier_may_be_a_body_in_a_contact() {
 
 #[test]
 fn only_a_body_in_a_contact_can_be_weightless() {
-    let light = |contact: &str| with(contact).replacen("material = \"plastic\"", "material = \"plastic\"\nweightless = true", 1);
+    let light = |contact: &str| {
+        with(contact).replacen("material = \"plastic\"", "material = \"plastic\"\nweightless = true", 1)
+    };
     assert!(parse(&light(CONTACT), "fence.toml").expect("valid").case.bodies[1].weightless);
     let report = report_of(&light(""));
     assert!(report.contains("bodies[1].weightless = true") && report.contains("[[contacts]]"), "{report}");
+}
+
+#[test]
+fn implicit_steps_are_for_clamped_elastic_bodies_in_contact() {
+    // All boundaries for the sand alone, but the clamp.
+    let apart = |text: &str| {
+        text.replace("kind = \"wall\"", "kind = \"wall\"\nbodies = [\"sand\"]")
+            .replace("kind = \"gate\"", "kind = \"gate\"\nbodies = [\"sand\"]")
+    };
+    let implicit =
+        |text: String| text.replacen("material = \"plastic\"", "material = \"plastic\"\nintegration = \"implicit\"", 1);
+    let loaded = parse(&apart(&implicit(with(CONTACT))), "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(loaded.case.bodies[1].integration, crate::case::Integration::Implicit);
+    for (text, part) in [
+        (implicit(with(CONTACT)), "no boundary but clamps acts on"),
+        (apart(&implicit(with(""))), "only for a body in [[contacts]]"),
+        (
+            apart(&implicit(with(CONTACT)).replacen("material = \"plastic\"", "material = \"sand\"", 1)),
+            "only for an elastic law",
+        ),
+    ] {
+        let report = report_of(&text);
+        assert!(report.contains(part) && report.contains("bodies[1].integration = \"implicit\""), "{report}");
+    }
 }
 
 #[test]
