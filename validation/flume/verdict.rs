@@ -82,13 +82,14 @@ fn sentence(error: f64, u: &Uncertainty) -> &'static str {
     }
 }
 
-fn run(context: &mut Context) -> Result<Outcome, Failure> {
+fn run(_: &mut Context) -> Result<Outcome, Failure> {
     let read = |record: &crate::validation::record::Record, columns: &[&str]| -> Result<Vec<Run>, Failure> {
         Ok(runs::rows(&Table::parse(record.runs, record.name)?, columns)?)
     };
     let repetitions = read(&baseline::RECORD, &["cell_m"])?;
     let changed = read(&sensitivity::RECORD, &[])?;
     let refined = read(&calibration::REFINED, &[])?;
+    let best = calibration::best(&refined, &repetitions);
     let mut outcome = Outcome::default();
     let mut text = String::from(
         "reading,case,quantity,unit,kind,published,checkdam,error,u_num,u_input,u_data,u_val,error_over_2_u_val,largest_input,verdict\n",
@@ -105,7 +106,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
                 let ours = if reading == "literal" {
                     numerical.scatter[1].mean
                 } else {
-                    refined.iter().find(|r| r.case == case && r.factor == FROZEN).map_or(f64::NAN, value)
+                    refined.iter().find(|r| r.case == case && r.label == best).map_or(f64::NAN, value)
                 };
                 let (input, largest) = input(&changed, case, &value);
                 // A calibrated input is no longer open; what remains of its uncertainty is not known, and not claimed.
@@ -137,12 +138,8 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     }
     outcome.tables.push(("flume_verdict_table".into(), text));
     outcome.tables.push(("flume_verdict_bias".into(), bias(&logs)));
-    let _ = context;
     Ok(outcome)
 }
-
-/// The set that stands in the calibrated case files, as the refined study names it.
-pub const FROZEN: &str = "frozen";
 
 /// Mean and scatter of ours over published, as factors (geometric), over all quantities of a reading.
 fn bias(logs: &[(&str, f64)]) -> String {
