@@ -6,9 +6,7 @@
 
 use super::ProgressFn;
 use super::experiment::{Experiment, RunError};
-use super::records::{
-    EnergyRow, HistoryRow, MomentumRow, Recorder, Records, STRUCTURE_COLUMNS, structure_values,
-};
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records, STRUCTURE_COLUMNS, structure_values};
 use super::summary::Summary;
 use crate::boundary::{Boundary, Solid};
 use crate::case::Case;

@@ -1,8 +1,8 @@
 //! What a run says: inputs resolved, results, ledgers, warnings.
 
 use super::experiment::{End, Experiment};
-use super::structure::{self, StructureResults};
 use super::records::{HistoryRow, MomentumRow, Records};
+use super::structure::{self, StructureResults};
 use crate::boundary::Friction;
 use crate::case::Case;
 use serde::Serialize;
@@ -260,7 +260,10 @@ impl Summary {
             warn(format!("momentum does not close: {:.1e} of all impulses", self.momentum.closure_max));
         }
         if self.momentum.penetration_max_m > h {
-            warn(format!("material lay {:.1} cells deep inside a boundary or the barrier", self.momentum.penetration_max_m / h));
+            warn(format!(
+                "material lay {:.1} cells deep inside a boundary or the barrier",
+                self.momentum.penetration_max_m / h
+            ));
         }
         if self.momentum.outflow_kg > 0.0 {
             warn(format!("{:.4} kg left the domain", self.momentum.outflow_kg));

@@ -245,7 +245,8 @@ impl Simulation {
         for (behind, b) in ledger.departed_behind.iter_mut().zip(&self.boundaries) {
             *behind += if b.face_coordinates(p.x).0 < 0.0 { m } else { 0.0 };
         }
-        ledger.departed_energy += 0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(&self.forces.gravity, &p.x);
+        ledger.departed_energy +=
+            0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(&self.forces.gravity, &p.x);
         // The elastic energy leaves the stock without being dissipated.
         ledger.internal_work -= elastic;
         for d in 0..2 {

@@ -120,7 +120,9 @@ fn a_barrier_may_be_a_body_in_a_contact() {
 
 #[test]
 fn only_a_body_in_a_contact_can_be_weightless() {
-    let light = |contact: &str| with(contact).replacen("material = \"plastic\"", "material = \"plastic\"\nweightless = true", 1);
+    let light = |contact: &str| {
+        with(contact).replacen("material = \"plastic\"", "material = \"plastic\"\nweightless = true", 1)
+    };
     assert!(parse(&light(CONTACT), "fence.toml").expect("valid").case.bodies[1].weightless);
     let report = report_of(&light(""));
     assert!(report.contains("bodies[1].weightless = true") && report.contains("[[contacts]]"), "{report}");

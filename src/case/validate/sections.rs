@@ -99,7 +99,8 @@ impl Checker<'_> {
                 let fix = "rename the boundary or the body: both have this name".to_owned();
                 wrong.push(("barrier", name, allowed, fix));
             } else if body && !self.case.contacts.iter().any(|c| c.bodies.contains(name)) {
-                let fix = format!("add [[contacts]] with `{name}`: what sticks to other bodies has no force to measure");
+                let fix =
+                    format!("add [[contacts]] with `{name}`: what sticks to other bodies has no force to measure");
                 wrong.push(("barrier", name, allowed, fix));
             }
         }

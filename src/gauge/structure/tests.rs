@@ -16,9 +16,8 @@ fn wall_and_block(young: f64, weightless: bool) -> (Simulation, StructureGauge) 
     let [nx, ny] = [10, 34];
     let mut points = wall.points();
     points.iter_mut().for_each(|p| p.id = (p.id % nx) * ny + p.id / nx);
-    let plane = |name: &str, x: [f64; 2], friction| {
-        Boundary::plane(name, Vector2::from(x), Vector2::new(0.0, 1.0), friction)
-    };
+    let plane =
+        |name: &str, x: [f64; 2], friction| Boundary::plane(name, Vector2::from(x), Vector2::new(0.0, 1.0), friction);
     let clamp = plane("clamp", [0.4, 0.0], Friction::Bonded).only_for(&[0]);
     let bed = plane("bed", [0.0, 0.0], Friction::Coulomb(0.3)).only_for(&[1]);
     let mut scene = scene(&wall, stiff.law(&Fault::NONE), stiff.density, points, vec![clamp, bed]);
