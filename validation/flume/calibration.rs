@@ -262,6 +262,46 @@ mod tests {
     use super::*;
     use crate::case::parse;
 
+    /// Targets that ask for a force of 10 N at 40 and 20 N at 23 degrees, both to 1 N.
+    fn wanted() -> [Vec<Target>; 2] {
+        [10.0, 20.0].map(|value| {
+            let datum = compare::published("40deg").remove(0).0;
+            let of: fn(&dyn Fn(&str) -> f64) -> f64 = |q| q("static_force_n");
+            vec![Target { datum: Datum { value, uncertainty: 0.6, ..datum }, of, numerical: 0.8 }]
+        })
+    }
+
+    fn set(label: &str, forces: [f64; 2], speed: f64) -> [Run; 2] {
+        [0, 1].map(|k| {
+            let mut run = Run::with(ANGLES[k], "sample", label, &[("static_force_n", forces[k])]);
+            run.set.extend(RANGES.map(|c| (c.to_string(), speed.to_string())));
+            run.set.extend(CHOICES.map(|c| (c.to_string(), if speed < 2.0 { "a" } else { "b" }.to_string())));
+            run
+        })
+    }
+
+    #[test]
+    fn sets_are_ordered_by_both_angles_and_the_front_keeps_what_is_not_beaten() {
+        let mut runs: Vec<Run> = [
+            set("both", [11.0, 21.0], 1.0),
+            set("steep", [10.0, 23.0], 2.0),
+            set("beaten", [12.0, 22.0], 3.0),
+            set("gentle", [14.0, 20.0], 4.0),
+            set("restless", [10.0, 20.0], 5.0),
+        ]
+        .concat();
+        runs[8].ended = "end time".into();
+        let members = members(&runs, &wanted());
+        assert_eq!(members.iter().map(|m| m.label).collect::<Vec<_>>(), ["both", "beaten", "steep", "gentle"]);
+        assert!((members[2].misfit[1] - 9.0).abs() < 1e-12 && (members[0].both() - 1.0).abs() < 1e-12);
+        let front = front(&members);
+        let sets: Vec<&str> = front.lines().skip(1).filter_map(|l| l.split(',').next()).collect();
+        assert_eq!(sets, ["steep", "both", "gentle"]);
+        let profiles = profiles(&members);
+        assert!(profiles.contains("container,a,,1,1,1,1\n"), "{profiles}");
+        assert!(profiles.contains("cone,b,,0,0,4,3\n"), "{profiles}");
+    }
+
     /// The set that was found stands in the case files, and nowhere else anything was changed.
     #[test]
     fn the_calibrated_cases_are_the_best_set() {

@@ -151,3 +151,44 @@ fn bias(logs: &[(&str, f64)]) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_may_be_said() {
+        let u = Uncertainty { numerical: 3.0, input: 12.0, data: 4.0 };
+        assert_eq!(u.validation(), 13.0);
+        assert!(sentence(-10.0, &u).starts_with("agrees"));
+        assert!(sentence(10.1, &u).starts_with("not resolved") && sentence(-26.0, &u).starts_with("not resolved"));
+        assert!(sentence(26.1, &u).starts_with("disagrees") && sentence(f64::NAN, &u).starts_with("disagrees"));
+    }
+
+    #[test]
+    fn inputs_add_up_by_their_squares() {
+        let run =
+            |factor: &str, label: &str, force: f64| Run::with("40deg", factor, label, &[("static_force_n", force)]);
+        let mut runs = vec![
+            run("base", "", 100.0),
+            run("gate", "slow", 94.0),
+            run("gate", "slower", 88.0),
+            run("cone", "plane strain", 108.0),
+            run("cell size", "0.02 m", 500.0),
+        ];
+        let (total, largest) = input(&runs, "40deg", &|r| r.get("static_force_n"));
+        assert!((total - (6.0f64.powi(2) + 4.0f64.powi(2)).sqrt() / 3f64.sqrt()).abs() < 1e-12);
+        assert_eq!(largest, "gate");
+        // What did not come to rest says nothing.
+        runs[2].ended = "end time".into();
+        assert!(input(&runs, "40deg", &|r| r.get("static_force_n")).0 < total);
+        assert_eq!(even(3f64.sqrt()), 1.0);
+    }
+
+    #[test]
+    fn bias_is_a_factor() {
+        let logs = [("literal", libm::log(2.0)), ("literal", libm::log(8.0)), ("calibrated", 0.0)];
+        let text = bias(&logs);
+        assert!(text.contains("literal,4,"), "{text}");
+    }
+}
