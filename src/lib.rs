@@ -50,6 +50,8 @@ pub mod study;
 pub mod theory;
 pub mod timestep;
 pub mod transfer;
+#[path = "../validation/mod.rs"]
+pub mod validation;
 pub mod vector;
 #[path = "../verification/mod.rs"]
 pub mod verification;

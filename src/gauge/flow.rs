@@ -20,9 +20,10 @@ pub struct Front {
     pub depth: f64,
 }
 
-/// The points of everything that flows: of all bodies but the one that is the `barrier`, with the index of their body.
+/// The points of everything that flows: of all bodies but the one that is the `barrier` and those without weight, which are
+/// structures, with the index of their body.
 pub fn flowing(simulation: &Simulation, barrier: Option<usize>) -> impl Iterator<Item = (usize, Particle)> {
-    simulation.particles().filter(move |(body, _)| Some(*body) != barrier)
+    simulation.particles().filter(move |(body, _)| Some(*body) != barrier && !simulation.bodies()[*body].weightless)
 }
 
 /// Finds the front of the flow (see [`flowing`]). `scratch` is memory to reuse.
