@@ -97,13 +97,15 @@ impl ImplicitBody {
         field.drift = 2.0 * self.displacement.iter().fold(0.0f64, |a, d| a.max(d.abs()));
         self.move_points(field);
         let points = self.point_kinetic(field);
+        let every = field.bands.iter().flat_map(|b| b.points[0].iter());
+        let fastest = every.fold(0.0f64, |a, p| a.max(p.v[0].abs()).max(p.v[1].abs()));
         let unseen = self.nodal_kinetic() - points;
         let sums = &mut field.bands[0].sums;
         sums.internal_work = stored;
         sums.kinetic = points;
         // What implicit steps take, and the energy of ripples that nodes have and points do not see, which comes and goes.
         sums.pic_loss = taken - stored + (unseen - self.unseen);
-        sums.max_speed = self.velocity.iter().fold(0.0f64, |a, v| a.max(v.abs()));
+        sums.max_speed = fastest;
         self.unseen = unseen;
         self.show(field);
     }

@@ -77,7 +77,7 @@ fn a_stiff_wall_takes_the_same_impact_in_implicit_steps() {
             compare(implicit.deflection, plain.deflection),
         ];
         println!(
-            "{young:e} Pa: impulse, peak, deflection off by {errors:.4?}; residuals {:.1e?} and {:.1e?}; {} and {} steps",
+            "{young:e} Pa: impulse, peak, deflection off by {errors:.4?}; residuals {:?} and {:?}; {} and {} steps",
             implicit.residual, plain.residual, implicit.steps, plain.steps
         );
         assert!(errors.iter().all(|e| e.abs() < tolerance), "{young:e}: {errors:?}");
