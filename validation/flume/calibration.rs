@@ -23,7 +23,7 @@ use std::path::Path;
 pub const VALIDATION: Validation = Validation {
     name: "flume_calibration",
     title: "The open inputs of the flume together: misfit, profiles, trade-off between the angles, the best set",
-    study: "480 runs on coarse cells and 24 on fine ones, about 25 minutes",
+    study: "360 runs on coarse cells and 18 on fine ones, about 20 minutes",
     run,
     draw,
     covers: &[],
@@ -127,7 +127,8 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let targets = ANGLES.map(|case| targets(case, &repetitions));
     let mut outcome = Outcome::default();
     let kept: Vec<Run> = sample.iter().chain(&refined).filter(|r| r.ended == "at rest").cloned().collect();
-    outcome.checks = judge(&kept);
+    // All of them have side walls, which hold a part of the deposit.
+    outcome.checks = judge(&kept, &|_| false);
     let share = kept.len() as f64 / (sample.len() + refined.len()) as f64;
     outcome.check(
         Check::new("share of the runs that came to rest", share, Expected::AtLeast(0.95), "1")
