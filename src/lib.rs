@@ -49,6 +49,8 @@ mod solver_tests;
 pub mod theory;
 pub mod timestep;
 pub mod transfer;
+#[path = "../validation/mod.rs"]
+pub mod validation;
 pub mod vector;
 #[path = "../verification/mod.rs"]
 pub mod verification;

@@ -1,0 +1,5 @@
+//! Are we solving the right equations? Experiments, with the uncertainty of their numbers and of ours.
+
+pub mod data;
+#[cfg(test)]
+mod errata;
