@@ -46,6 +46,7 @@ pub mod shape;
 pub mod simulation;
 #[cfg(test)]
 mod solver_tests;
+pub mod study;
 pub mod theory;
 pub mod timestep;
 pub mod transfer;

@@ -22,35 +22,35 @@ pub struct Figure {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drawing {
     /// Columns against a column.
-    Curves(Curves),
+    Curves(Curves<'static>),
     /// A column by two others.
     HeatMap(HeatMap),
 }
 
-const fn measured(column: &'static str, label: &'static str) -> Curve {
+const fn measured(column: &'static str, label: &'static str) -> Curve<'static> {
     Curve { column, label, exact: false }
 }
 
-const fn exact(column: &'static str, label: &'static str) -> Curve {
+const fn exact(column: &'static str, label: &'static str) -> Curve<'static> {
     Curve { column, label, exact: true }
 }
 
-const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel {
+const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel<'static> {
     Panel { title, only }
 }
 
-const fn curves(rung: &'static str, table: &'static str, name: &'static str, curves: Curves) -> Figure {
+const fn curves(rung: &'static str, table: &'static str, name: &'static str, curves: Curves<'static>) -> Figure {
     Figure { rung, table, name, drawing: Drawing::Curves(curves) }
 }
 
-const SHAPES: [Panel; 3] = [
+const SHAPES: [Panel<'static>; 3] = [
     panel("linear", &[("shape", "linear")]),
     panel("uGIMP", &[("shape", "uGIMP")]),
     panel("B-spline", &[("shape", "B-spline")]),
 ];
 
 /// All points of a manufactured solution at the first time, by shape function.
-const MANUFACTURED: [Panel; 3] = [
+const MANUFACTURED: [Panel<'static>; 3] = [
     panel("linear", &[("shape", "linear"), ("ct_over_side", "0.3"), ("place", "all points")]),
     panel("uGIMP", &[("shape", "uGIMP"), ("ct_over_side", "0.3"), ("place", "all points")]),
     panel("B-spline", &[("shape", "B-spline"), ("ct_over_side", "0.3"), ("place", "all points")]),

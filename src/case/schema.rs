@@ -83,6 +83,9 @@ pub struct Grid {
     /// Particles in a full cell: 1, 4, 9 or 16. Default 4.
     #[serde(default = "default_particles_per_cell")]
     pub particles_per_cell: u32,
+    /// Place of a node, m, \[x, y\]. Default \[0, 0\]; another place says how much a result owes to the grid's.
+    #[serde(default)]
+    pub origin_m: [f64; 2],
 }
 
 /// Interpolation between particles and grid nodes.
@@ -129,6 +132,13 @@ pub struct Body {
     /// Velocity at the start, m/s, \[x, y\]. Default zero.
     #[serde(default)]
     pub velocity_m_per_s: [f64; 2],
+    /// Largest displacement of a particle from its lattice, in either direction and at random, as a share of the lattice's
+    /// spacing, in \[0, 0.5\]. Default 0; another packing says how much a result owes to the lattice.
+    #[serde(default)]
+    pub jitter: f64,
+    /// Which of the random packings. Default 0.
+    #[serde(default)]
+    pub jitter_seed: u32,
     /// The mass the body is meant to have, kg, positive. A check, not an input: refused unless density x area x thickness
     /// gives it to 0.1 %.
     pub mass_kg: Option<f64>,

@@ -4,12 +4,15 @@ mod check;
 mod console;
 mod progress;
 mod run;
+mod study;
 mod verify;
 
 use clap::{Parser, Subcommand};
 use console::{say, tell};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Exit code when a check failed.
 const CHECK_FAILED: u8 = 1;
@@ -30,6 +33,7 @@ Start here:
   checkdam check validation/flume/40deg.toml     what would run, and how long it would take
   checkdam run   validation/flume/40deg.toml     run it into out/40deg
   checkdam verify                                are the equations solved right? every rung against its closed form
+  checkdam study validation/flume/studies/cells.toml   the same case with other cell sizes, one table
 The comments in validation/flume/40deg.toml explain every field of a case file.
 
 Exit codes:
@@ -69,6 +73,22 @@ enum Command {
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
     },
+    /// Run a study: many runs of the same cases with other values, ending in one table.
+    ///
+    /// The study file (TOML) names the cases and what varies: every combination of some values, one change at a time, or a
+    /// sample of ranges. The folder holds runs.csv, a row per run, and the figure if one is asked for. A study that was
+    /// stopped goes on where it was when the command is given again.
+    Study {
+        /// The study file.
+        #[arg(value_name = "STUDY.toml")]
+        study: PathBuf,
+        /// Folder for the results [default: out/<name of the study file>]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Runs at a time; any number gives the same table [default: all processors]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+    },
     /// Run the verification ladder: print what was measured beside what should come out, write tables and figures.
     Verify {
         /// Rungs to run [default: all]
@@ -85,6 +105,7 @@ pub fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Run { case, out, threads } => run::run(&case, out, threads),
         Command::Check { case, threads } => check::check(&case, threads),
+        Command::Study { study, out, threads } => study::study(&study, out, threads),
         Command::Verify { rungs, out } => verify::verify(&rungs, &out),
     }
 }
@@ -103,6 +124,22 @@ fn load(path: &std::path::Path) -> Result<checkdam::case::Case, ExitCode> {
             Err(ExitCode::from(BAD_INPUT))
         }
     }
+}
+
+/// A flag that Ctrl-C sets, with these words; a second Ctrl-C ends the process at once.
+fn stop_on_ctrl_c(words: &'static str) -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    let handler = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::SeqCst) {
+            std::process::exit(130);
+        }
+        tell!("\n{words}");
+    });
+    if let Err(error) = handler {
+        tell!("warning: Ctrl-C will not end this in order ({error})");
+    }
+    stop
 }
 
 /// Sets the number of threads for everything that follows.

@@ -2,7 +2,9 @@
 
 use super::tell;
 use checkdam::run::{Progress, Stage};
+use checkdam::study;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeMap;
 use std::io::{IsTerminal, stderr};
 use std::time::{Duration, Instant};
 
@@ -84,6 +86,68 @@ impl Display {
                 bar.set_message(text);
             }
             None => tell!("{:>7}: {text}", p.stage.name()),
+        }
+    }
+
+    /// Removes the bar.
+    pub fn clear(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// Shows how far a study is: one bar over all runs, or a line when a run ends.
+pub struct StudyDisplay {
+    bar: Option<ProgressBar>,
+    start: Instant,
+    last: Instant,
+    /// Share of each run that is on the way, by its number.
+    inside: BTreeMap<usize, f64>,
+}
+
+impl StudyDisplay {
+    /// A display of so many runs on the standard error stream.
+    pub fn new(total: usize) -> Self {
+        let bar = stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new(TICKS);
+            if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {msg}") {
+                bar.set_style(style.progress_chars("=> "));
+            }
+            bar.set_message(format!("0 of {total} runs"));
+            bar
+        });
+        let now = Instant::now();
+        Self { bar, start: now, last: now, inside: BTreeMap::new() }
+    }
+
+    /// Shows `p`; called often, draws seldom.
+    pub fn show(&mut self, p: &study::Progress) {
+        match p.inside {
+            // Settling and tilting count as a tenth; a run may come to rest before its end.
+            Some(i) => self.inside.insert(
+                p.run.number,
+                if i.stage == Stage::Run { 0.1 + 0.9 * (i.time / i.end).clamp(0.0, 1.0) } else { 0.05 },
+            ),
+            None => self.inside.remove(&p.run.number),
+        };
+        let now = Instant::now();
+        if p.ended.is_none() && (self.bar.is_none() || now - self.last < Duration::from_millis(100)) {
+            return;
+        }
+        self.last = now;
+        let seconds = (now - self.start).as_secs_f64();
+        let done = (p.finished - p.earlier) as f64 + self.inside.values().sum::<f64>();
+        let left =
+            if done > 0.0 { remaining(seconds * ((p.total - p.earlier) as f64 - done) / done) } else { "?".into() };
+        let text = format!("{} of {} runs, about {left} left", p.finished, p.total);
+        match (&self.bar, p.ended) {
+            (Some(bar), _) => {
+                bar.set_position((p.finished as f64 / p.total as f64 * TICKS as f64) as u64);
+                bar.set_message(format!("{text}; {}", p.run.what));
+            }
+            (None, Some(ended)) => tell!("{text}; {}: {ended}", p.run.what),
+            (None, None) => {}
         }
     }
 

@@ -1,12 +1,11 @@
 //! `checkdam run`.
 
 use super::progress::Display;
-use super::{BAD_INPUT, ENDED_EARLY, load, say, tell, use_threads};
+use super::{BAD_INPUT, ENDED_EARLY, load, say, stop_on_ctrl_c, tell, use_threads};
 use checkdam::run::{self, Summary, files};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode {
@@ -21,19 +20,7 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
     }
     use_threads(threads);
 
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    // A second Ctrl-C ends the process at once.
-    let handler = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::SeqCst) {
-            std::process::exit(130);
-        }
-        tell!("\nstopping: writing what was computed (Ctrl-C again to quit at once)");
-    });
-    if let Err(error) = handler {
-        tell!("warning: Ctrl-C will not end the run in order ({error})");
-    }
-
+    let stop = stop_on_ctrl_c("stopping: writing what was computed (Ctrl-C again to quit at once)");
     let mut display = Display::new();
     let start = Instant::now();
     let mut steps = (0u64, 0usize);

@@ -21,48 +21,48 @@ const LEGEND_ROW_PX: f64 = 19.0;
 
 /// One column against another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Curve {
+pub struct Curve<'a> {
     /// Column of the values.
-    pub column: &'static str,
+    pub column: &'a str,
     /// What to call it; may be empty where the split says enough.
-    pub label: &'static str,
+    pub label: &'a str,
     /// Whether it is what should come out (thin, grey, no markers) rather than what did.
     pub exact: bool,
 }
 
 /// A part of the rows, with axes of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Panel {
+pub struct Panel<'a> {
     /// What stands above it.
-    pub title: &'static str,
+    pub title: &'a str,
     /// Columns and the text that a row must have there.
-    pub only: &'static [(&'static str, &'static str)],
+    pub only: &'a [(&'a str, &'a str)],
 }
 
 /// What to draw from a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Curves {
+pub struct Curves<'a> {
     /// Column along the horizontal axis.
-    pub x: &'static str,
+    pub x: &'a str,
     /// Title of the horizontal axis, with its unit.
-    pub x_title: &'static str,
+    pub x_title: &'a str,
     /// Title of the vertical axis, with its unit.
-    pub y_title: &'static str,
+    pub y_title: &'a str,
     /// The curves.
-    pub curves: &'static [Curve],
+    pub curves: &'a [Curve<'a>],
     /// The panels; none for one of all rows.
-    pub panels: &'static [Panel],
+    pub panels: &'a [Panel<'a>],
     /// Columns that split the rows into one set of curves per combination, and what to write before their values.
-    pub split: &'static [(&'static str, &'static str)],
+    pub split: &'a [(&'a str, &'a str)],
     /// Whether both axes are logarithmic, of magnitudes; zeros are left out.
     pub logarithmic: bool,
     /// Slopes to compare with, on logarithmic axes.
-    pub orders: &'static [f64],
+    pub orders: &'a [f64],
 }
 
-impl Curves {
+impl Curves<'static> {
     /// One panel on linear axes.
-    pub const LINEAR: Curves = Curves {
+    pub const LINEAR: Self = Curves {
         x: "",
         x_title: "",
         y_title: "",
@@ -74,7 +74,7 @@ impl Curves {
     };
 
     /// One panel on logarithmic axes.
-    pub const LOGARITHMIC: Curves = Curves { logarithmic: true, ..Self::LINEAR };
+    pub const LOGARITHMIC: Self = Curves { logarithmic: true, ..Self::LINEAR };
 }
 
 /// A drawn curve: label, whether exact, points.

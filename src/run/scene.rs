@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 pub fn build(case: &Case) -> Scene {
     let angle = case.gravity.settle_inclination_or_default_deg();
     Scene {
-        lattice: Lattice { spacing: case.grid.spacing_m, origin: [0.0, 0.0] },
+        lattice: Lattice { spacing: case.grid.spacing_m, origin: case.grid.origin_m },
         thickness: case.grid.thickness_m,
         domain: [case.domain.x_m, case.domain.y_m],
         bodies: case.bodies.iter().map(|b| body(case, b)).collect(),
@@ -41,9 +41,11 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
     let mut particles = Vec::with_capacity((nx * ny) as usize);
     for i in 0..nx as usize {
         for j in 0..ny as usize {
-            let (u, v) = ((i as f64 + 0.5) * spacing, (j as f64 + 0.5) * spacing);
-            let x = [b.x_m[0] + cos * u - sin * v, b.y_m[0] + sin * u + cos * v];
             let id = particles.len() as u32;
+            let moved =
+                |axis: u64| b.jitter * (2.0 * uniform(u64::from(b.jitter_seed), 2 * u64::from(id) + axis) - 1.0);
+            let (u, v) = ((i as f64 + 0.5 + moved(0)) * spacing, (j as f64 + 0.5 + moved(1)) * spacing);
+            let x = [b.x_m[0] + cos * u - sin * v, b.y_m[0] + sin * u + cos * v];
             particles.push(Particle { v: b.velocity_m_per_s, ..Particle::at_rest(id, x) });
         }
     }
@@ -56,6 +58,14 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
         point_spacing: spacing,
     };
     (body, particles)
+}
+
+/// A number of \[0, 1\) from a seed and a counter: the same on every machine (SplitMix64; Steele, Lea and Flood 2014).
+fn uniform(seed: u64, counter: u64) -> f64 {
+    let mut z = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(counter).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
 fn law(material: &case::Material) -> AnyLaw {

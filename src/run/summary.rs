@@ -12,6 +12,10 @@ const ARRIVAL_FORCE: f64 = 0.5;
 const STATIC_WINDOW: f64 = 0.3;
 /// Length of the mean behind the filtered peak, s: the paper's archive interval.
 const PEAK_WINDOW: f64 = 0.02;
+/// The force is static from when its mean over that interval stays within this share of the static force.
+const STATIC_BAND: f64 = 0.05;
+/// Time after arrival over which the impulse of the impact is taken, s.
+const IMPACT_WINDOW: f64 = 0.5;
 
 /// Everything worth knowing about a run; written as `summary.toml`.
 #[derive(Debug, Clone, Serialize)]
@@ -95,6 +99,10 @@ pub struct BarrierResults {
     pub static_height_of_action_m: f64,
     /// Largest overturning moment of a single step, N m.
     pub peak_moment_step_n_m: f64,
+    /// When the mean over 20 ms comes within 5 % of the static force to stay there, s after release.
+    pub time_to_static_s: f64,
+    /// Impulse of the normal force in the first 0.5 s after arrival, N s.
+    pub impulse_half_second_n_s: f64,
     /// Impulse of the normal force, N s.
     pub impulse_normal_n_s: f64,
     /// Impulse of the force along the face, N s.
@@ -308,8 +316,9 @@ fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults>
     let static_force = late(|r| r.normal);
     let static_moment = late(|r| r.moment);
     let peak = smoothed_peak(history);
+    let arrival = history.iter().find(|r| r.normal > ARRIVAL_FORCE).map(|r| r.time);
     Some(BarrierResults {
-        arrival_time_s: history.iter().find(|r| r.normal > ARRIVAL_FORCE).map(|r| r.time),
+        arrival_time_s: arrival,
         peak_force_step_n: gauge.peak_force().value,
         peak_force_step_time_s: gauge.peak_force().time,
         peak_force_20ms_n: peak.0,
@@ -323,6 +332,8 @@ fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults>
         static_moment_n_m: static_moment,
         static_height_of_action_m: if static_force > 0.0 { static_moment / static_force } else { 0.0 },
         peak_moment_step_n_m: gauge.peak_moment().value,
+        time_to_static_s: time_to_static(history, static_force),
+        impulse_half_second_n_s: arrival.map_or(0.0, |t| impulse(history, t, t + IMPACT_WINDOW)),
         impulse_normal_n_s: gauge.total_impulse()[0],
         impulse_tangential_n_s: gauge.total_impulse()[1],
         run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
@@ -330,22 +341,35 @@ fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults>
     })
 }
 
-/// Largest mean over `PEAK_WINDOW` and the middle of its interval.
-fn smoothed_peak(history: &[HistoryRow]) -> (f64, f64) {
-    let mut best = (0.0, 0.0);
+/// Means of the normal force over `PEAK_WINDOW`: start, end (s) and mean (N) of each interval that ends with a sample.
+fn running_means(history: &[HistoryRow]) -> impl Iterator<Item = (f64, f64, f64)> {
     let (mut first, mut sum) = (0, 0.0);
-    for (k, row) in history.iter().enumerate() {
+    history.iter().enumerate().map(move |(k, row)| {
         sum += row.normal;
         while row.time - history[first].time > PEAK_WINDOW * (1.0 - 1e-9) {
             sum -= history[first].normal;
             first += 1;
         }
-        let mean = sum / (k + 1 - first) as f64;
-        if mean > best.0 && row.time >= PEAK_WINDOW {
-            best = (mean, 0.5 * (row.time + history[first].time));
-        }
-    }
-    best
+        (history[first].time, row.time, sum / (k + 1 - first) as f64)
+    })
+}
+
+/// Largest mean over `PEAK_WINDOW` and the middle of its interval.
+fn smoothed_peak(history: &[HistoryRow]) -> (f64, f64) {
+    let whole = running_means(history).filter(|m| m.1 >= PEAK_WINDOW);
+    whole.fold((0.0, 0.0), |best, (from, to, mean)| if mean > best.0 { (mean, 0.5 * (from + to)) } else { best })
+}
+
+/// End of the last interval of `PEAK_WINDOW` whose mean is farther from the static force than `STATIC_BAND`.
+fn time_to_static(history: &[HistoryRow], static_force: f64) -> f64 {
+    let off = running_means(history).filter(|m| (m.2 - static_force).abs() > STATIC_BAND * static_force.abs());
+    off.last().map_or(0.0, |m| m.1)
+}
+
+/// Impulse of the normal force between two times, N s.
+fn impulse(history: &[HistoryRow], from: f64, to: f64) -> f64 {
+    let pairs = history.windows(2).filter(|p| p[1].time > from && p[1].time <= to);
+    pairs.map(|p| p[1].normal * (p[1].time - p[0].time)).sum()
 }
 
 fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults> {

@@ -44,6 +44,10 @@ impl Checker<'_> {
         let at = KeyPath::top("grid");
         self.positive(&at.key("spacing_m"), grid.spacing_m, 0.01);
         self.positive(&at.key("thickness_m"), grid.thickness_m, 0.2);
+        if grid.origin_m.iter().any(|o| o.abs() > grid.spacing_m) {
+            let allowed = "at most one spacing_m from 0: all nodes follow from one";
+            self.not_allowed(&at.key("origin_m"), &grid.origin_m, allowed, "give the place of the node next to [0, 0]");
+        }
         if ![1, 4, 9, 16].contains(&grid.particles_per_cell) {
             let path = at.key("particles_per_cell");
             self.not_allowed(&path, &grid.particles_per_cell, "1, 4, 9 or 16: squares of 1 to 4", "use 4");

@@ -1,0 +1,283 @@
+//! The study file.
+
+use super::change::Change;
+use super::sampling::MOST_DIMENSIONS;
+use serde::Deserialize;
+use std::path::Path;
+use toml::Value;
+
+/// What a study varies. All of `axes`, `variants` and `sample` may be given: their runs are added up.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Study {
+    /// One line that names the study.
+    pub title: String,
+    /// Case files, relative to the study file; every design point is run on each.
+    pub cases: Vec<String>,
+    /// Changes of all runs, before any other.
+    #[serde(default)]
+    pub base: Change,
+    /// Every combination of their values.
+    #[serde(default, rename = "axis")]
+    pub axes: Vec<Axis>,
+    /// One at a time, besides the unchanged cases.
+    #[serde(default, rename = "variant")]
+    pub variants: Vec<Variant>,
+    /// A space-filling sample.
+    pub sample: Option<Sample>,
+    /// Repetitions of every design point on other grids and packings.
+    pub replicates: Option<Replicates>,
+    /// What to draw.
+    pub figure: Option<Figure>,
+}
+
+/// A field and its values.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axis {
+    /// Column of the table; ends in the unit.
+    pub name: String,
+    /// Fields that take the value; one or more.
+    pub fields: Vec<String>,
+    /// The values, as they would be written in a case file.
+    pub values: Vec<Value>,
+}
+
+/// One change with a name.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variant {
+    /// What is varied: variants of the same factor belong together.
+    pub factor: String,
+    /// To what.
+    pub label: String,
+    /// Fields and their new values.
+    #[serde(default)]
+    pub set: toml::Table,
+    /// Fields that are taken out.
+    #[serde(default)]
+    pub unset: Vec<String>,
+    /// Lists and the elements that are added to them.
+    #[serde(default)]
+    pub append: toml::Table,
+}
+
+impl Variant {
+    /// What it changes.
+    pub fn change(&self) -> Change {
+        Change { set: self.set.clone(), unset: self.unset.clone(), append: self.append.clone() }
+    }
+}
+
+/// Points that fill the space of some ranges and choices evenly (Halton 1960).
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sample {
+    /// How many.
+    pub points: usize,
+    /// Ranges of numbers.
+    #[serde(default, rename = "range")]
+    pub ranges: Vec<Range>,
+    /// Choices between changes.
+    #[serde(default, rename = "choice")]
+    pub choices: Vec<Choice>,
+}
+
+/// A field whose number is drawn between two.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Range {
+    /// Column of the table; ends in the unit.
+    pub name: String,
+    /// Fields that take the number.
+    pub fields: Vec<String>,
+    /// Least.
+    pub low: f64,
+    /// Greatest.
+    pub high: f64,
+    /// Evenly in the logarithm.
+    #[serde(default)]
+    pub logarithmic: bool,
+}
+
+/// A choice between changes, each as likely as the others.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Choice {
+    /// Column of the table.
+    pub name: String,
+    /// The options.
+    #[serde(rename = "option")]
+    pub options: Vec<Option_>,
+}
+
+/// One of a choice.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Option_ {
+    /// What stands in the table.
+    pub label: String,
+    /// Fields and their new values.
+    #[serde(default)]
+    pub set: toml::Table,
+    /// Fields that are taken out.
+    #[serde(default)]
+    pub unset: Vec<String>,
+}
+
+/// Repetitions that should not matter: the grid moved by a part of a cell, the particles moved by a part of their spacing.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Replicates {
+    /// How many besides the design point itself.
+    pub count: usize,
+    /// Largest displacement of the grid, cells, in either direction.
+    #[serde(default)]
+    pub grid_offset_cells: f64,
+    /// Largest displacement of the particles over their spacing; see `bodies.jitter`.
+    #[serde(default)]
+    pub jitter: f64,
+    /// Bodies whose particles are moved.
+    #[serde(default)]
+    pub bodies: Vec<String>,
+}
+
+/// A quantity against an axis, one curve per case.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// Column along the horizontal axis.
+    pub x: String,
+    /// Column of the quantity.
+    pub y: String,
+    /// Whether both axes are logarithmic.
+    #[serde(default)]
+    pub logarithmic: bool,
+}
+
+/// Why a study cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A file cannot be read.
+    #[error(
+        "error: {name} cannot be read: {source}\n  fix: give the path of a study file, NAME.toml; cases are named relative to it"
+    )]
+    Unreadable {
+        /// The file.
+        name: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The text is not TOML, or its keys or types are not those of a study.
+    #[error("error in {name}: {report}")]
+    Malformed {
+        /// The file.
+        name: String,
+        /// The line and what is wrong with it.
+        report: String,
+    },
+    /// The values make no sense.
+    #[error("error in {name}: {what}\n  fix: {fix}")]
+    Invalid {
+        /// The file.
+        name: String,
+        /// What is wrong.
+        what: String,
+        /// What to do.
+        fix: String,
+    },
+    /// A change makes a case that cannot be run.
+    #[error("error in {name}: {run} cannot be run\n{report}")]
+    Case {
+        /// The file.
+        name: String,
+        /// The run.
+        run: String,
+        /// The report on the case.
+        report: String,
+    },
+    /// A file of the results.
+    #[error(transparent)]
+    Output(#[from] crate::output::OutputError),
+    /// A figure.
+    #[error(transparent)]
+    Plot(#[from] crate::plot::PlotError),
+}
+
+impl Study {
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or [`Study::parse`] refuses it.
+    pub fn load(path: &Path) -> Result<Self, StudyError> {
+        let name = path.display().to_string();
+        let text =
+            std::fs::read_to_string(path).map_err(|source| StudyError::Unreadable { name: name.clone(), source })?;
+        Self::parse(&text, &name)
+    }
+
+    /// Reads the text of a study file; `name` stands for it in reports.
+    ///
+    /// # Errors
+    /// [`StudyError::Malformed`] and [`StudyError::Invalid`].
+    pub fn parse(text: &str, name: &str) -> Result<Self, StudyError> {
+        let study: Self = toml::from_str(text)
+            .map_err(|e| StudyError::Malformed { name: name.into(), report: e.to_string().trim_end().into() })?;
+        match study.objection() {
+            None => Ok(study),
+            Some((what, fix)) => Err(StudyError::Invalid { name: name.into(), what, fix }),
+        }
+    }
+
+    /// What is wrong and what to do about it.
+    fn objection(&self) -> Option<(String, String)> {
+        let say = |what: &str, fix: &str| Some((what.to_string(), fix.to_string()));
+        if self.cases.is_empty() {
+            return say("it has no case", "cases = [\"NAME.toml\"], relative to the study file");
+        }
+        for axis in &self.axes {
+            if axis.values.is_empty() || axis.fields.is_empty() {
+                return say(
+                    &format!("axis `{}` has no value or no field", axis.name),
+                    "values = [...], fields = [\"grid.spacing_m\"]",
+                );
+            }
+        }
+        let names: Vec<&str> = self.columns();
+        if let Some(k) = (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
+            return say(&format!("`{}` is the name of two things that vary", names[k]), "give each its own name");
+        }
+        if let Some(sample) = &self.sample {
+            let dimensions = sample.ranges.len() + sample.choices.len();
+            if sample.points == 0 || dimensions == 0 || dimensions > MOST_DIMENSIONS {
+                let fix = format!("points > 0, and 1 to {MOST_DIMENSIONS} of [[sample.range]] and [[sample.choice]]");
+                return say("the sample is empty or has too many dimensions", &fix);
+            }
+            for r in &sample.ranges {
+                let low = if r.logarithmic { 0.0 } else { f64::NEG_INFINITY };
+                if !(r.low > low && r.low < r.high && r.high.is_finite()) || r.fields.is_empty() {
+                    let what = format!("range `{}` from {} to {} is empty, or it has no field", r.name, r.low, r.high);
+                    return say(&what, "low < high, both positive on a logarithmic range, and fields = [...]");
+                }
+            }
+            if let Some(c) = sample.choices.iter().find(|c| c.options.is_empty()) {
+                return say(&format!("choice `{}` has no option", c.name), "add [[sample.choice.option]]");
+            }
+        }
+        if let Some(r) = &self.replicates
+            && !(0.0..=1.0).contains(&r.grid_offset_cells)
+        {
+            return say(&format!("replicates.grid_offset_cells = {}", r.grid_offset_cells), "0 to 1");
+        }
+        None
+    }
+
+    /// Columns of what varies, besides factor and label.
+    pub fn columns(&self) -> Vec<&str> {
+        let sample = self
+            .sample
+            .iter()
+            .flat_map(|s| s.ranges.iter().map(|r| r.name.as_str()).chain(s.choices.iter().map(|c| c.name.as_str())));
+        self.axes.iter().map(|a| a.name.as_str()).chain(sample).collect()
+    }
+}

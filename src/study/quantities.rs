@@ -1,0 +1,88 @@
+//! Numbers that a run is reduced to.
+
+use crate::run::Summary;
+use crate::run::summary::{BarrierResults, DepositResults, FrontPassage};
+
+/// A number of a run.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Column; ends in the unit.
+    pub name: &'static str,
+    /// Title on an axis, with the unit.
+    pub title: &'static str,
+    /// The number; NaN where the run has none.
+    pub of: fn(&Summary) -> f64,
+}
+
+fn barrier(summary: &Summary, value: fn(&BarrierResults) -> f64) -> f64 {
+    summary.barrier.as_ref().map_or(f64::NAN, value)
+}
+
+fn deposit(summary: &Summary, value: fn(&DepositResults) -> f64) -> f64 {
+    summary.deposit.as_ref().map_or(f64::NAN, value)
+}
+
+/// The front as it enters the window of the velocity field.
+fn at_window(summary: &Summary, value: fn(&FrontPassage) -> f64) -> f64 {
+    let x = summary.case.gauges.window_x_m.map(|w| w[0]);
+    summary.front.iter().find(|f| Some(f.x_m) == x).map_or(f64::NAN, value)
+}
+
+/// The front just before it touches the barrier.
+fn at_barrier(summary: &Summary, value: fn(&FrontPassage) -> f64) -> f64 {
+    let arrived = summary.barrier.as_ref().is_some_and(|b| b.arrival_time_s.is_some());
+    summary.front.last().filter(|_| arrived).map_or(f64::NAN, value)
+}
+
+macro_rules! quantities {
+    ($($name:literal, $title:literal, $of:expr;)*) => {
+        &[$(Quantity { name: $name, title: $title, of: $of }),*]
+    };
+}
+
+/// All of them, in the order of the table.
+pub const QUANTITIES: &[Quantity] = quantities![
+    "static_force_n", "static force (N)", |s| barrier(s, |b| b.static_force_n);
+    "static_shear_n", "static shear on the face (N)", |s| barrier(s, |b| b.static_shear_n);
+    "static_moment_n_m", "static overturning moment (N m)", |s| barrier(s, |b| b.static_moment_n_m);
+    "static_layer1_n", "static force from one layer's stress (N)", |s| barrier(s, |b| b.static_force_layers_n[0]);
+    "static_layer2_n", "static force from two layers' stress (N)", |s| barrier(s, |b| b.static_force_layers_n[1]);
+    "static_layer3_n", "static force from three layers' stress (N)", |s| barrier(s, |b| b.static_force_layers_n[2]);
+    "peak_20ms_n", "largest force over 20 ms (N)", |s| barrier(s, |b| b.peak_force_20ms_n);
+    "peak_20ms_time_s", "its time (s)", |s| barrier(s, |b| b.peak_force_20ms_time_s);
+    "peak_step_n", "largest force of a step (N)", |s| barrier(s, |b| b.peak_force_step_n);
+    "peak_moment_n_m", "largest overturning moment of a step (N m)", |s| barrier(s, |b| b.peak_moment_step_n_m);
+    "impulse_half_second_n_s", "impulse in 0.5 s after arrival (N s)", |s| barrier(s, |b| b.impulse_half_second_n_s);
+    "run_up_m", "run-up (m)", |s| barrier(s, |b| b.run_up_m);
+    "overtopped_kg", "mass over the barrier (kg)", |s| barrier(s, |b| b.overtopped_kg);
+    "arrival_s", "arrival (s)", |s| barrier(s, |b| b.arrival_time_s.unwrap_or(f64::NAN));
+    "time_to_static_s", "time to the static force (s)", |s| barrier(s, |b| b.time_to_static_s);
+    "front_velocity_m_per_s", "front velocity at the window (m/s)", |s| at_window(s, |f| f.velocity_m_per_s);
+    "front_depth_m", "flow depth at the window (m)", |s| at_window(s, |f| f.depth_m);
+    "froude_1", "Froude number at the window", |s| at_window(s, |f| f.froude);
+    "barrier_velocity_m_per_s", "front velocity at the barrier (m/s)", |s| at_barrier(s, |f| f.velocity_m_per_s);
+    "barrier_depth_m", "flow depth at the barrier (m)", |s| at_barrier(s, |f| f.depth_m);
+    "weight_along_n", "weight along the flume (N)", |s| deposit(s, |d| d.weight_along_flume_n);
+    "friction_limit_n", "largest base friction (N)", |s| deposit(s, |d| d.base_friction_limit_n);
+    "mobilised_1", "mobilised share of the base friction", |s| deposit(s, |d| d.mobilised_share);
+    "dissipated_1", "share of E0 dissipated", |s| 1.0 - s.energy.kinetic - s.energy.gravitational - s.energy.elastic;
+    "plastic_1", "share of E0 dissipated plastically", |s| s.energy.plastic;
+    "friction_1", "share of E0 dissipated by boundary friction", |s| s.energy.friction;
+    "impact_1", "share of E0 lost in normal impact", |s| s.energy.contact;
+    "pic_1", "share of E0 lost to PIC", |s| s.energy.pic;
+    "kinetic_max_1", "largest kinetic share of E0", |s| s.energy.kinetic_max;
+    "energy_residual_1", "share of E0 not accounted for, largest", |s| s.energy.residual_max;
+    "momentum_closure_1", "momentum not accounted for", |s| s.momentum.closure_max;
+    "penetration_m", "deepest penetration (m)", |s| s.momentum.penetration_max_m;
+    "end_s", "end of the run (s)", |s| s.stepping.end_time_s;
+];
+
+/// All quantities of a run.
+pub fn measure(summary: &Summary) -> Vec<f64> {
+    QUANTITIES.iter().map(|q| (q.of)(summary)).collect()
+}
+
+/// Index of a quantity.
+pub fn index(name: &str) -> Option<usize> {
+    QUANTITIES.iter().position(|q| q.name == name)
+}

@@ -1,0 +1,119 @@
+//! The tidy table of a study: a row per run.
+
+use super::plan::PlannedRun;
+use super::quantities::QUANTITIES;
+use crate::check::significant;
+use crate::output::{OutputError, write_text};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Significant digits of the quantities.
+const DIGITS: usize = 9;
+/// Columns before those of what varies.
+const FIRST: [&str; 4] = ["case", "factor", "label", "replicate"];
+/// Columns between what varies and the quantities.
+const MIDDLE: [&str; 2] = ["key", "ended"];
+
+/// A finished run: how it ended and what was measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// "at rest", "end time", or why it failed.
+    pub ended: String,
+    /// Values of [`QUANTITIES`], as text; empty cells where there is none.
+    pub values: Vec<String>,
+}
+
+impl Row {
+    /// Of numbers.
+    pub fn new(ended: &str, numbers: &[f64]) -> Self {
+        let text = |x: &f64| if x.is_finite() { significant(*x, DIGITS) } else { String::new() };
+        Self { ended: ended.into(), values: numbers.iter().map(text).collect() }
+    }
+
+    /// Of a run that failed.
+    pub fn failed(reason: &str) -> Self {
+        let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
+        Self { ended: format!("failed: {reason}"), values: vec![String::new(); QUANTITIES.len()] }
+    }
+
+    /// Whether the run came to its end.
+    pub fn is_complete(&self) -> bool {
+        !self.ended.starts_with("failed")
+    }
+}
+
+/// Finished runs by key; they are kept on disk as the table of the study.
+#[derive(Debug)]
+pub struct Runs {
+    path: PathBuf,
+    columns: Vec<String>,
+    rows: BTreeMap<String, Row>,
+}
+
+impl Runs {
+    /// What an earlier run of a study with these columns left at `path`; nothing if there is no such table. Runs that failed
+    /// are forgotten: they are tried again.
+    pub fn open(path: &Path, columns: &[&str]) -> Self {
+        let columns = columns.iter().map(ToString::to_string).collect();
+        let mut runs = Self { path: path.to_path_buf(), columns, rows: BTreeMap::new() };
+        let Ok(mut reader) = csv::Reader::from_path(path) else { return runs };
+        if reader.headers().is_ok_and(|h| h.iter().eq(runs.header().iter().map(String::as_str))) {
+            let at = FIRST.len() + runs.columns.len();
+            for record in reader.records().filter_map(Result::ok) {
+                let values = record.iter().skip(at + MIDDLE.len()).map(str::to_string).collect();
+                let row = Row { ended: record[at + 1].to_string(), values };
+                if row.is_complete() {
+                    runs.rows.insert(record[at].to_string(), row);
+                }
+            }
+        }
+        runs
+    }
+
+    fn header(&self) -> Vec<String> {
+        let first = FIRST.iter().map(ToString::to_string).chain(self.columns.iter().cloned());
+        first
+            .chain(MIDDLE.iter().chain(&QUANTITIES.iter().map(|q| q.name).collect::<Vec<_>>()).map(ToString::to_string))
+            .collect()
+    }
+
+    /// The row of a run, if it is finished.
+    pub fn get(&self, run: &PlannedRun) -> Option<&Row> {
+        self.rows.get(&run.key)
+    }
+
+    /// Adds a row.
+    pub fn insert(&mut self, run: &PlannedRun, row: Row) {
+        self.rows.insert(run.key.clone(), row);
+    }
+
+    /// The table of the runs that are finished, in the order of the plan.
+    pub fn csv(&self, plan: &[PlannedRun]) -> String {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let written = (|| -> csv::Result<()> {
+            writer.write_record(self.header())?;
+            for run in plan {
+                let Some(row) = self.get(run) else { continue };
+                let replicate = run.replicate.to_string();
+                let first = [&run.case_name, &run.factor, &run.label, &replicate].map(String::as_str);
+                let values = run.values.iter().map(String::as_str);
+                let middle = [run.key.as_str(), row.ended.as_str()];
+                writer.write_record(
+                    first.into_iter().chain(values).chain(middle).chain(row.values.iter().map(String::as_str)),
+                )?;
+            }
+            Ok(())
+        })();
+        // Writing to memory fails only if rows differ in length, which the types above exclude.
+        debug_assert!(written.is_ok(), "{written:?}");
+        writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+    }
+
+    /// Puts the table in its place, whole.
+    ///
+    /// # Errors
+    /// The table cannot be written; what stood there is unchanged.
+    pub fn save(&self, plan: &[PlannedRun]) -> Result<(), OutputError> {
+        write_text(&self.path, &self.csv(plan))
+    }
+}

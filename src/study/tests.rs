@@ -1,0 +1,170 @@
+use super::*;
+use std::num::NonZero;
+
+const CASE: &str = r#"
+title = "drop"
+[gravity]
+inclination_deg = 0
+[grid]
+spacing_m = 0.05
+thickness_m = 0.1
+[domain]
+x_m = [-0.5, 0.5]
+y_m = [-0.2, 0.6]
+[materials.rubber]
+law = "linear_elastic"
+density_kg_per_m3 = 1000
+young_pa = 1.0e5
+poisson = 0.2
+[[bodies]]
+name = "block"
+material = "rubber"
+x_m = [-0.1, 0.1]
+y_m = [0.0, 0.2]
+[[boundaries]]
+name = "floor"
+kind = "plane"
+point_m = [0.0, 0.0]
+normal_deg = 90
+contact = "smooth"
+[stages.run]
+end_time_s = 0.3
+[gauges]
+barrier = "floor"
+"#;
+
+const STUDY: &str = r#"
+title = "stiffness and friction of the floor"
+cases = ["drop.toml"]
+[base.set]
+"numerics.cfl" = 0.2
+[[axis]]
+name = "young_pa"
+fields = ["materials.rubber.young_pa"]
+values = [1.0e5, 2.0e5]
+[[variant]]
+factor = "floor"
+label = "rough"
+set = { "boundaries.floor.contact" = "rough" }
+"#;
+
+fn planned(study: &str) -> Result<(Study, Vec<PlannedRun>), StudyError> {
+    let study = Study::parse(study, "study.toml")?;
+    let runs = plan(&study, "study.toml", &|_| Ok(CASE.to_string()))?;
+    Ok((study, runs))
+}
+
+#[test]
+fn every_run_is_planned_with_its_change() {
+    let (study, runs) = planned(STUDY).expect("a study");
+    let told: Vec<&str> = runs.iter().map(|r| r.what.as_str()).collect();
+    assert_eq!(
+        told,
+        ["drop, base", "drop, floor, rough", "drop, axis, young_pa 100000", "drop, axis, young_pa 200000"]
+    );
+    assert_eq!(study.columns(), ["young_pa"]);
+    let young: Vec<f64> = runs.iter().map(|r| r.case.materials["rubber"].young_pa).collect();
+    assert_eq!(young, [1e5, 1e5, 1e5, 2e5]);
+    assert!(runs.iter().all(|r| r.case.numerics.cfl == 0.2));
+    // The first value of the axis is the base.
+    assert!(runs[0].key == runs[2].key && runs[0].key != runs[1].key && runs[2].key != runs[3].key);
+}
+
+#[test]
+fn replicates_move_grid_and_particles() {
+    let text =
+        format!("{STUDY}\n[replicates]\ncount = 2\ngrid_offset_cells = 0.5\njitter = 0.2\nbodies = [\"block\"]\n");
+    let (_, runs) = planned(&text).expect("a study");
+    assert_eq!(runs.len(), 12);
+    assert_eq!(runs[0].case.grid.origin_m, [0.0; 2]);
+    // Halton's first point is (1/2, 1/3): no offset along x, a third of half a cell back along y.
+    let [x, y] = runs[1].case.grid.origin_m;
+    assert!(x.abs() < 1e-15 && (y + 0.05 * 0.5 / 3.0).abs() < 1e-12, "{x} {y}");
+    assert_eq!((runs[2].case.bodies[0].jitter, runs[2].case.bodies[0].jitter_seed), (0.2, 2));
+    let scene = crate::run::scene::build(&runs[2].case);
+    let plain = crate::run::scene::build(&runs[0].case);
+    let moved: Vec<f64> =
+        scene.bodies[0].1.iter().zip(&plain.bodies[0].1).map(|(a, b)| (a.x[0] - b.x[0]) / 0.025).collect();
+    let most = moved.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    assert!(most > 0.15 && most <= 0.2, "{most}");
+    let mean = moved.iter().sum::<f64>() / moved.len() as f64;
+    assert!(mean.abs() < 0.05, "{mean}");
+}
+
+#[test]
+fn a_sample_fills_its_ranges() {
+    let text = r#"
+title = "sample"
+cases = ["drop.toml"]
+[sample]
+points = 3
+[[sample.range]]
+name = "young_pa"
+fields = ["materials.rubber.young_pa"]
+low = 1e4
+high = 1e6
+logarithmic = true
+[[sample.choice]]
+name = "floor"
+option = [{ label = "smooth" }, { label = "rough", set = { "boundaries.floor.contact" = "rough" } }]
+"#;
+    let (_, runs) = planned(text).expect("a study");
+    let values: Vec<&[String]> = runs.iter().map(|r| &r.values[..]).collect();
+    assert_eq!(values, [["100000", "smooth"], ["31620", "rough"], ["316200", "smooth"]]);
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    for (from, to, words) in [
+        ("materials.rubber", "materials.rubbr", "materials.rubbr"),
+        (
+            "boundaries.floor.contact",
+            "boundaries.flor.contact",
+            "no element of boundaries is named `flor`; there are floor",
+        ),
+        ("contact\" = \"rough\"", "contact\" = \"rouhg\"", "did you mean `rough`?"),
+        ("cases = [\"drop.toml\"]", "cases = []", "it has no case"),
+        ("values = [1.0e5, 2.0e5]", "values = []", "axis `young_pa`"),
+        ("values = [1.0e5, 2.0e5]", "values = [-1.0e5]", "young_pa = -1e5"),
+        ("factor =", "fctor =", "fctor"),
+        ("title = ", "titel = ", "titel"),
+    ] {
+        let text = STUDY.replacen(from, to, 1);
+        let Err(error) = planned(&text) else { panic!("{to} is accepted") };
+        let error = error.to_string();
+        assert!(error.contains(words), "{to}: {error}");
+    }
+}
+
+#[test]
+fn a_study_goes_on_where_it_stopped() {
+    let (study, plan) = planned(STUDY).expect("a study");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("runs.csv");
+    let one = NonZero::<usize>::MIN;
+    // Stopped after the first run has ended.
+    let mut runs = Runs::open(&path, &study.columns());
+    let first = run(&plan, &mut runs, one, &mut |p| p.ended.is_none()).expect("a table");
+    assert_eq!((first.rows, first.total, first.is_complete()), (2, 4, false), "the base and the axis' first value");
+    // Stopped in the middle of a run: nothing of it is kept.
+    let mut runs = Runs::open(&path, &study.columns());
+    assert_eq!(run(&plan, &mut runs, one, &mut |_| false).expect("a table").rows, 2);
+    let mut seen = Vec::new();
+    let mut runs = Runs::open(&path, &study.columns());
+    let last = run(&plan, &mut runs, NonZero::new(2).expect("two"), &mut |p| {
+        if p.ended.is_some() {
+            seen.push((p.run.what.clone(), p.earlier));
+        }
+        true
+    });
+    assert!(last.expect("a table").is_complete());
+    seen.sort();
+    assert_eq!(seen, [("drop, axis, young_pa 200000".to_string(), 2), ("drop, floor, rough".to_string(), 2)]);
+    // As if it had never been interrupted.
+    let at_once = folder.path().join("at_once.csv");
+    let mut runs = Runs::open(&at_once, &study.columns());
+    run(&plan, &mut runs, one, &mut |_| true).expect("a table");
+    let [a, b] = [&path, &at_once].map(|p| std::fs::read_to_string(p).expect("a table"));
+    assert_eq!(a, b);
+    assert_eq!(a.lines().count(), 5);
+}
