@@ -1,5 +1,107 @@
-//! Are we solving the right equations? Experiments, with the uncertainty of their numbers and of ours.
+//! Are we solving the right equations? Experiments and published computations, with the uncertainty of their numbers and of
+//! ours.
+//!
+//! A validation is a module and a line in [`VALIDATIONS`]. It leaves tables and draws its figures from them; what must hold
+//! whatever the source says (balances, bounds, sampling noise) is judged, what the source says stands beside it. Studies of
+//! many runs are recorded in `runs/*.csv` of their folder; from the record, their analysis takes seconds, and
+//! [`Context::studies`] makes the record anew.
 
+pub mod column;
 pub mod data;
 #[cfg(test)]
 mod errata;
+
+use crate::output::OutputError;
+use crate::plot::PlotError;
+use crate::run::RunError;
+use crate::simulation::StepFailure;
+use crate::study::StudyError;
+use crate::verification::report::files;
+use crate::verification::{Fault, FaultKind, Outcome, RungFailure};
+use std::path::Path;
+
+/// One validation.
+#[derive(Debug, Clone, Copy)]
+pub struct Validation {
+    /// Name, also of its tables and figures, which begin with it.
+    pub name: &'static str,
+    /// What it shows, in a line.
+    pub title: &'static str,
+    /// What its record is made of, and how long that takes on two processors; empty if it keeps none.
+    pub study: &'static str,
+    /// Runs it.
+    pub run: fn(&mut Context) -> Result<Outcome, Failure>,
+    /// Draws its figures from the tables in a folder, into the folder; their names.
+    pub draw: fn(&Path) -> Result<Vec<String>, PlotError>,
+    /// Faults that it claims to catch, with their factors f; 2 - f is tried as well.
+    pub covers: &'static [(FaultKind, f64)],
+}
+
+/// What a validation is given.
+pub struct Context<'a> {
+    /// What is wrong on purpose.
+    pub fault: Fault,
+    /// Where it may leave whole runs, and where studies go on.
+    pub folder: &'a Path,
+    /// Whether studies are run, instead of read from the record.
+    pub studies: bool,
+    /// Is told how far it is, in words; it ends early when this answers `false`.
+    pub progress: &'a mut (dyn FnMut(&str) -> bool + Send),
+}
+
+/// Why a validation could not be run to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A run failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A simulation failed.
+    #[error("the simulation failed: {0}")]
+    Step(Box<StepFailure>),
+    /// A study failed.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// A file could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A figure could not be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// The user stopped it.
+    #[error("stopped; studies go on from here when they are asked for again")]
+    Stopped,
+    /// A file of the project is not as it should be.
+    #[error("{0}")]
+    Record(String),
+}
+
+impl From<StepFailure> for Failure {
+    fn from(failure: StepFailure) -> Self {
+        Failure::Step(Box::new(failure))
+    }
+}
+
+impl From<RungFailure> for Failure {
+    fn from(failure: RungFailure) -> Self {
+        let RungFailure::Step(failure) = failure;
+        Failure::Step(failure)
+    }
+}
+
+/// All validations.
+pub const VALIDATIONS: &[Validation] = &[column::LEVEL, column::SLOPE];
+
+/// Writes tables and figures of an outcome into `folder`, which is created; returns their names.
+///
+/// # Errors
+/// The first file that could not be written.
+pub fn write(validation: &Validation, outcome: &Outcome, folder: &Path) -> Result<Vec<String>, PlotError> {
+    std::fs::create_dir_all(folder).map_err(|source| OutputError::Create { path: folder.to_path_buf(), source })?;
+    let mut written = Vec::new();
+    for (stem, text) in files(validation.name, outcome) {
+        written.push(format!("{stem}.csv"));
+        crate::output::write_text(folder.join(format!("{stem}.csv")), &text)?;
+    }
+    written.extend((validation.draw)(folder)?);
+    Ok(written)
+}

@@ -17,7 +17,7 @@ mod tests;
 use super::data::Source;
 use super::{Context, Failure, Validation};
 use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves};
+use crate::plot::curves::{self, Curve, Curves, Panel};
 use crate::verification::{FaultKind, Outcome};
 use rayon::prelude::*;
 use std::path::Path;
@@ -45,18 +45,23 @@ pub const SLOPE: Validation = Validation {
     study: "the same 78 columns",
     run: |context| run(context, true),
     draw: |folder| draw("column_slope", &SLOPE_FIGURES, folder),
-    covers: &[(FaultKind::Gravity, 1.05), (FaultKind::Density, 1.05), (FaultKind::ContactForce, 1.03)],
+    covers: &[
+        (FaultKind::Friction, 1.05),
+        (FaultKind::Gravity, 1.05),
+        (FaultKind::Density, 1.05),
+        (FaultKind::ContactForce, 1.03),
+    ],
 };
 
-const fn measured(column: &'static str, label: &'static str) -> Curve {
+const fn measured(column: &'static str, label: &'static str) -> Curve<'static> {
     Curve { column, label, exact: false }
 }
 
-const fn exact(column: &'static str, label: &'static str) -> Curve {
+const fn exact(column: &'static str, label: &'static str) -> Curve<'static> {
     Curve { column, label, exact: true }
 }
 
-const LEVEL_FIGURES: [(&str, Curves); 3] = [
+const LEVEL_FIGURES: [(&str, Curves<'static>); 3] = [
     (
         "scaling",
         Curves {
@@ -69,7 +74,10 @@ const LEVEL_FIGURES: [(&str, Curves); 3] = [
                 exact("run_out_high_1", "measured, upper"),
                 exact("run_out_low_1", "measured, lower"),
             ],
-            split: &[("grains", "")],
+            panels: &[
+                Panel { title: "sand", only: &[("grains", "sand")] },
+                Panel { title: "glass beads", only: &[("grains", "beads")] },
+            ],
             ..Curves::LINEAR
         },
     ),
@@ -79,11 +87,7 @@ const LEVEL_FIGURES: [(&str, Curves); 3] = [
             x: "cell_1",
             x_title: "cell size over length of the column",
             y_title: "run-out over length",
-            curves: &[
-                measured("run_out_tip_1", "tip"),
-                measured("run_out_mass_1", "by mass"),
-                measured("run_out_depth_1", "by depth"),
-            ],
+            curves: &[measured("run_out_tip_1", "tip")],
             split: &[("case", "")],
             ..Curves::LINEAR
         },
@@ -101,7 +105,7 @@ const LEVEL_FIGURES: [(&str, Curves); 3] = [
     ),
 ];
 
-const SLOPE_FIGURES: [(&str, Curves); 4] = [
+const SLOPE_FIGURES: [(&str, Curves<'static>); 4] = [
     (
         "scaling",
         Curves {
@@ -132,8 +136,8 @@ const SLOPE_FIGURES: [(&str, Curves); 4] = [
     ),
 ];
 
-fn draw(name: &str, figures: &[(&str, Curves)], folder: &Path) -> Result<Vec<String>, PlotError> {
-    let one = |(stem, what): &(&str, Curves)| {
+fn draw(name: &str, figures: &[(&str, Curves<'static>)], folder: &Path) -> Result<Vec<String>, PlotError> {
+    let one = |(stem, what): &(&str, Curves<'static>)| {
         let file = format!("{name}_{stem}.svg");
         curves::draw(folder.join(format!("{name}_{stem}.csv")), what, folder.join(&file)).map(|()| file)
     };
@@ -189,6 +193,9 @@ fn run(context: &mut Context, inclined: bool) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::default();
     for (run, deposit) in &runs {
         judge::deposit(run, deposit, &rows, &mut outcome);
+    }
+    if inclined {
+        judge::steep(&fault, &mut outcome)?;
     }
     if fault == crate::verification::Fault::NONE {
         let name = if inclined { SLOPE.name } else { LEVEL.name };

@@ -100,21 +100,24 @@ impl Column {
         Ok(sim)
     }
 
-    /// Shear over normal impulse on the bed and mean velocity along it, m/s, from one time (s) to another.
+    /// Shear over normal impulse on the bed, and mean acceleration along it (m/s2), from one time (s) to another.
     ///
     /// # Errors
     /// Where the solver gives up.
-    pub fn bed_friction(&self, from: f64, to: f64, fault: &Fault) -> Result<[f64; 2], RungFailure> {
+    pub fn on_the_bed(&self, from: f64, to: f64, fault: &Fault) -> Result<[f64; 2], RungFailure> {
         let mut sim = self.released(fault)?;
+        while sim.time() < from {
+            sim.step()?;
+        }
+        let (start, before) = (sim.time(), sim.stock().momentum[0]);
         let mut impulse = [0.0; 2];
         while sim.time() < to {
             sim.step()?;
-            if sim.time() > from {
-                let step = sim.step_tallies()[1].impulse;
-                impulse = [impulse[0] + step[0], impulse[1] + step[1]];
-            }
+            let step = sim.step_tallies()[1].impulse;
+            impulse = [impulse[0] + step[0], impulse[1] + step[1]];
         }
-        Ok([-impulse[0] / impulse[1], sim.stock().momentum[0] / sim.mass()])
+        let gained = sim.stock().momentum[0] - before;
+        Ok([-impulse[0] / impulse[1], gained / sim.mass() / (sim.time() - start)])
     }
 
     /// Runs until the kinetic energy is less than 1e-6 of m g h0 and past its largest value, at most for `longest` (s).
@@ -124,7 +127,9 @@ impl Column {
     pub fn collapse(&self, longest: f64, fault: &Fault) -> Result<Deposit, RungFailure> {
         let mut sim = self.released(fault)?;
         let g = GRAVITY * fault.gravity;
-        let weight = sim.mass() * g * libm::cos(self.slope);
+        // What it should weigh, not what a fault makes of it.
+        let mass = self.material.density * self.length * self.height * THICKNESS;
+        let weight = mass * GRAVITY * libm::cos(self.slope);
         let scale = sim.mass() * g * self.height;
         let opening = sim.opening().gravitational;
         let every = 0.02 * (self.height / g).sqrt();

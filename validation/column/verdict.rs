@@ -130,7 +130,9 @@ pub fn sentence(ours: &Ours, datum: &Datum, scale: f64) -> &'static str {
     let without_input = ours.numerical.hypot(even(datum.uncertainty) / scale);
     match error {
         e if e <= 2.0 * without_input => "agrees within numerical and data uncertainty",
-        e if e <= 2.0 * ours.validation(datum, scale) => "not resolved: inputs that are not known do not determine this number",
+        e if e <= 2.0 * ours.validation(datum, scale) => {
+            "not resolved: inputs that are not known do not determine this number"
+        }
         _ => "disagrees by more than all stated uncertainties",
     }
 }
