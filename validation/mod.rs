@@ -10,6 +10,8 @@ pub mod column;
 pub mod data;
 #[cfg(test)]
 mod errata;
+pub mod flume;
+pub mod record;
 
 use crate::output::OutputError;
 use crate::plot::PlotError;
@@ -89,7 +91,16 @@ impl From<RungFailure> for Failure {
 }
 
 /// All validations.
-pub const VALIDATIONS: &[Validation] = &[column::LEVEL, column::SLOPE];
+pub const VALIDATIONS: &[Validation] = &[
+    flume::VALIDATION,
+    flume::noise::VALIDATION,
+    flume::baseline::VALIDATION,
+    flume::sensitivity::VALIDATION,
+    flume::calibration::VALIDATION,
+    flume::verdict::VALIDATION,
+    column::LEVEL,
+    column::SLOPE,
+];
 
 /// Writes tables and figures of an outcome into `folder`, which is created; returns their names.
 ///

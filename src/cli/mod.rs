@@ -5,6 +5,7 @@ mod console;
 mod progress;
 mod run;
 mod study;
+mod validate;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -33,12 +34,13 @@ Start here:
   checkdam check validation/flume/40deg.toml     what would run, and how long it would take
   checkdam run   validation/flume/40deg.toml     run it into out/40deg
   checkdam verify                                are the equations solved right? every rung against its closed form
-  checkdam study validation/flume/studies/cells.toml   the same case with other cell sizes, one table
+  checkdam validate                              are they the right equations? the experiments beside our numbers
+  checkdam study validation/flume/studies/baseline.toml   the same case with other cells, one table
 The comments in validation/flume/40deg.toml explain every field of a case file.
 
 Exit codes:
   0  done
-  1  a check of the verification ladder failed
+  1  a check of the verification ladder or of a validation failed
   2  the input is at fault; nothing was written
   3  the run failed or was stopped; what was computed is in its folder"
 )]
@@ -98,6 +100,18 @@ enum Command {
         #[arg(long, value_name = "DIR", default_value = "out/verification")]
         out: PathBuf,
     },
+    /// Run the validations: the experiments beside our numbers, with both uncertainties; write tables and figures.
+    Validate {
+        /// Validations to run [default: all]
+        #[arg(value_name = "NAME")]
+        names: Vec<String>,
+        /// Make the runs of studies anew instead of reading their record; goes on where it was stopped
+        #[arg(long)]
+        studies: bool,
+        /// Folder for tables and figures; files of the same name are replaced
+        #[arg(long, value_name = "DIR", default_value = "out/validation")]
+        out: PathBuf,
+    },
 }
 
 /// Parses the command line and does what it says.
@@ -107,6 +121,7 @@ pub fn main() -> ExitCode {
         Command::Check { case, threads } => check::check(&case, threads),
         Command::Study { study, out, threads } => study::study(&study, out, threads),
         Command::Verify { rungs, out } => verify::verify(&rungs, &out),
+        Command::Validate { names, studies, out } => validate::validate(&names, studies, &out),
     }
 }
 

@@ -159,6 +159,43 @@ impl StudyDisplay {
     }
 }
 
+/// Shows words that change: in place on a terminal, a line every few seconds elsewhere.
+pub struct Words {
+    bar: Option<ProgressBar>,
+    last: Option<Instant>,
+}
+
+impl Words {
+    /// On the standard error stream.
+    pub fn new() -> Self {
+        Self { bar: stderr().is_terminal().then(ProgressBar::new_spinner), last: None }
+    }
+
+    /// Shows `text`, if it says anything; called often, draws seldom.
+    pub fn show(&mut self, text: &str) {
+        let now = Instant::now();
+        let interval = if self.bar.is_some() { Duration::from_millis(100) } else { LINE_INTERVAL };
+        if text.is_empty() || self.last.is_some_and(|last| now - last < interval) {
+            return;
+        }
+        self.last = Some(now);
+        match &self.bar {
+            Some(bar) => {
+                bar.set_message(text.to_string());
+                bar.tick();
+            }
+            None => tell!("      {text}"),
+        }
+    }
+
+    /// Removes them.
+    pub fn clear(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
 /// A time in words.
 pub fn remaining(seconds: f64) -> String {
     match seconds {

@@ -197,6 +197,7 @@ type Column = Result<Vec<f64>, (u64, String)>;
 #[derive(Debug, Clone)]
 pub struct Table {
     path: PathBuf,
+    text: String,
     names: Vec<String>,
     columns: Vec<Column>,
     rows: usize,
@@ -208,10 +209,18 @@ impl Table {
     /// # Errors
     /// [`OutputError::Open`], or [`OutputError::Malformed`] for a line whose number of cells differs from the header's.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, OutputError> {
+        let open = |source| OutputError::Open { path: path.as_ref().to_path_buf(), source };
+        Self::parse(&std::fs::read_to_string(path.as_ref()).map_err(open)?, &path)
+    }
+
+    /// Reads the text of such a table; `path` stands for it in reports.
+    ///
+    /// # Errors
+    /// [`OutputError::Malformed`] for a line whose number of cells differs from the header's.
+    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let path = path.as_ref().to_path_buf();
         let malformed = |line, reason: String| OutputError::Malformed { path: path.clone(), line, reason };
-        let file = File::open(&path).map_err(|source| OutputError::Open { path: path.clone(), source })?;
-        let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(file);
+        let mut reader = reader(text);
         let header = reader.headers().map_err(|error| malformed(1, error.to_string()))?;
         let names: Vec<String> = header.iter().map(str::to_owned).collect();
         if names.is_empty() {
@@ -240,7 +249,7 @@ impl Table {
             }
             rows += 1;
         }
-        Ok(Self { path, names, columns, rows })
+        Ok(Self { path, text: text.to_string(), names, columns, rows })
     }
 
     /// The file the table was read from.
@@ -261,24 +270,21 @@ impl Table {
         self.rows
     }
 
-    /// The cells of a column as text, read from the file again: names and parameters by which rows are told apart.
+    /// The cells of a column as text: names and parameters by which rows are told apart.
     ///
     /// # Errors
-    /// [`OutputError::MissingColumn`], [`OutputError::Open`] or [`OutputError::Malformed`].
+    /// [`OutputError::MissingColumn`] or [`OutputError::Malformed`].
     pub fn cells(&self, name: &str) -> Result<Vec<String>, OutputError> {
         let Some(k) = self.names.iter().position(|other| other == name) else {
             let available = self.names.join(", ");
             return Err(OutputError::MissingColumn { path: self.path.clone(), column: name.to_owned(), available });
         };
-        let open = |source| OutputError::Open { path: self.path.clone(), source };
-        let file = File::open(&self.path).map_err(open)?;
-        let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(file);
         let text = |(line, row): (usize, Result<csv::StringRecord, csv::Error>)| {
             let malformed = |reason| OutputError::Malformed { path: self.path.clone(), line: line as u64 + 2, reason };
             let row = row.map_err(|error| malformed(error.to_string()))?;
             row.get(k).map(str::to_owned).ok_or_else(|| malformed("a cell is missing".to_owned()))
         };
-        reader.records().enumerate().map(text).collect()
+        reader(&self.text).records().enumerate().map(text).collect()
     }
 
     /// The values of a column, in the unit its name ends in; NaN where the cell is empty.
@@ -298,6 +304,10 @@ impl Table {
             text: text.clone(),
         })
     }
+}
+
+fn reader(text: &str) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes())
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@ use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
 use super::labels::spread;
 use super::style::{
-    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SMALL_PX, Spot, TEXT_PX, VERMILION, dashes, drawing, line, render,
-    stroke, text_width_px, units, write_at,
+    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, Spot, TEXT_PX, VERMILION, dashes, drawing, fill,
+    line, render, stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
@@ -21,10 +21,19 @@ pub struct ReferenceLine {
     pub label: String,
     /// The force (N).
     pub value_n: f64,
+    /// Half width of a band around it (N): an uncertainty, or the span between two limits; 0 for a line alone.
+    pub half_width_n: f64,
+}
+
+impl ReferenceLine {
+    /// A line alone.
+    pub fn new(label: impl Into<String>, value_n: f64) -> Self {
+        Self { label: label.into(), value_n, half_width_n: 0.0 }
+    }
 }
 
 /// Colours of the reference lines, in turn.
-const REFERENCES: [RGBColor; 4] = [VERMILION, GREEN, PURPLE, GREY];
+const REFERENCES: [RGBColor; 5] = [VERMILION, GREEN, PURPLE, SKY, GREY];
 /// Width at which the name of a reference line is wrapped (px).
 const WRAP_PX: f64 = 170.0;
 const HEIGHT_PX: i32 = 480;
@@ -58,8 +67,11 @@ pub fn draw(
 
     let finite = |values: &[f64]| values.iter().copied().filter(|v| v.is_finite()).collect::<Vec<_>>();
     let times = finite(time);
-    let values: Vec<f64> =
-        finite(force).into_iter().chain(finite(layers)).chain(lines.iter().map(|line| line.value_n)).collect();
+    let values: Vec<f64> = finite(force)
+        .into_iter()
+        .chain(finite(layers))
+        .chain(lines.iter().map(|line| line.value_n + line.half_width_n))
+        .collect();
     let (lo, hi) = values.iter().fold((0.0, 0.0), |(lo, hi): (f64, f64), v| (lo.min(*v), hi.max(*v)));
     let (scale, unit) = if hi.max(-lo) >= 20e3 { (1e-3, "kN") } else { (1.0, "N") };
     let scaled = |values: &[f64]| values.iter().map(|v| v * scale).collect::<Vec<_>>();
@@ -73,7 +85,12 @@ pub fn draw(
         .iter()
         .map(|line| {
             let mut text = wrap(&line.label);
-            text.push(format!("{} {unit}", short(line.value_n * scale)));
+            text.push(match line.half_width_n * scale {
+                0.0 => format!("{} {unit}", short(line.value_n * scale)),
+                half => {
+                    format!("{} to {} {unit}", short(line.value_n * scale - half), short(line.value_n * scale + half))
+                }
+            });
             text
         })
         .collect();
@@ -84,6 +101,12 @@ pub fn draw(
     render(out_svg.as_ref(), HEIGHT_PX, |canvas| {
         let frame = Frame::draw(canvas, &margins, (&x, "time (s)"), (&y, &format!("normal force ({unit})")))?;
         let (left, right, top, bottom) = frame.bounds();
+        for (k, line) in lines.iter().enumerate().filter(|(_, line)| line.half_width_n > 0.0) {
+            let edge =
+                |sign: f64| frame.spot(x.lo, (line.value_n + sign * line.half_width_n) * scale).1.clamp(top, bottom);
+            let corners = vec![(left, edge(1.0)), (right, edge(1.0)), (right, edge(-1.0)), (left, edge(-1.0))];
+            fill(canvas, corners, &REFERENCES[k % REFERENCES.len()].mix(0.16))?;
+        }
         let heights: Vec<i32> = lines.iter().map(|line| frame.spot(x.lo, line.value_n * scale).1).collect();
         frame.series(canvas, time, &scaled(force), line(BLUE, 2.2))?;
         // Seen through, so that neither hides the other where they agree.

@@ -13,6 +13,7 @@ mod labels;
 mod panels;
 pub mod pressure_profile;
 mod style;
+pub mod tornado;
 
 use std::path::{Path, PathBuf};
 

@@ -83,7 +83,7 @@ fn history(bench: &Bench, rows: usize, scale: f64) -> PathBuf {
 fn force_against_time() {
     let bench = Bench::new();
     let history = history(&bench, 20_000, 1.0);
-    let reference = |label: &str, value_n| force_time::ReferenceLine { label: label.to_owned(), value_n };
+    let reference = |label: &str, value_n| force_time::ReferenceLine::new(label, value_n);
     let lines = [
         reference("measured peak force on the rigid barrier", 262.0),
         reference("hydrodynamic, \u{3b1} = 1", 248.0),

@@ -86,7 +86,7 @@ pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<
     let force = || {
         let value = summary.deposit.as_ref().map(|d| d.theoretical_static_force_n).filter(|f| f.is_finite());
         let label = "weight less full base friction\nm g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})";
-        let lines: Vec<_> = value.map(|value_n| ReferenceLine { label: label.into(), value_n }).into_iter().collect();
+        let lines: Vec<_> = value.map(|v| ReferenceLine::new(label, v)).into_iter().collect();
         plot::force_time::draw(at("history.csv"), &lines, at("force_time.svg"))
     };
     let profile = || plot::pressure_profile::draw(at("pressure_profile.csv"), at("pressure_profile.svg"));

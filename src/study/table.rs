@@ -1,11 +1,12 @@
 //! The tidy table of a study: a row per run.
 
-use super::plan::PlannedRun;
+use super::plan::{PlannedRun, fingerprint};
 use super::quantities::QUANTITIES;
 use crate::check::significant;
 use crate::output::{OutputError, write_text};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// Significant digits of the quantities.
 const DIGITS: usize = 9;
@@ -45,17 +46,25 @@ impl Row {
 /// Finished runs by key; they are kept on disk as the table of the study.
 #[derive(Debug)]
 pub struct Runs {
-    path: PathBuf,
+    /// Where they are kept; nowhere if in memory only.
+    path: Option<PathBuf>,
     columns: Vec<String>,
     rows: BTreeMap<String, Row>,
 }
 
 impl Runs {
-    /// What an earlier run of a study with these columns left at `path`; nothing if there is no such table. Runs that failed
-    /// are forgotten: they are tried again.
+    /// None yet, and none kept on disk.
+    pub fn in_memory(columns: &[&str]) -> Self {
+        Self { path: None, columns: columns.iter().map(ToString::to_string).collect(), rows: BTreeMap::new() }
+    }
+
+    /// What an earlier run of a study with these columns left at `path`; nothing if there is no such table, or if another
+    /// build of the program made it. Runs that failed are forgotten: they are tried again.
     pub fn open(path: &Path, columns: &[&str]) -> Self {
-        let columns = columns.iter().map(ToString::to_string).collect();
-        let mut runs = Self { path: path.to_path_buf(), columns, rows: BTreeMap::new() };
+        let mut runs = Self { path: Some(path.to_path_buf()), ..Self::in_memory(columns) };
+        if !std::fs::read_to_string(program_file(path)).is_ok_and(|text| text == program()) {
+            return runs;
+        }
         let Ok(mut reader) = csv::Reader::from_path(path) else { return runs };
         if reader.headers().is_ok_and(|h| h.iter().eq(runs.header().iter().map(String::as_str))) {
             let at = FIRST.len() + runs.columns.len();
@@ -114,6 +123,22 @@ impl Runs {
     /// # Errors
     /// The table cannot be written; what stood there is unchanged.
     pub fn save(&self, plan: &[PlannedRun]) -> Result<(), OutputError> {
-        write_text(&self.path, &self.csv(plan))
+        let Some(path) = &self.path else { return Ok(()) };
+        write_text(program_file(path), program())?;
+        write_text(path, &self.csv(plan))
     }
+}
+
+/// Says which build made the table at `path`.
+fn program_file(path: &Path) -> PathBuf {
+    path.with_extension("program")
+}
+
+/// Fingerprint of this program: what another build computed may be something else.
+fn program() -> &'static str {
+    static PROGRAM: OnceLock<String> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let bytes = std::env::current_exe().and_then(std::fs::read).unwrap_or_default();
+        format!("{:016x}\n", fingerprint(&bytes))
+    })
 }

@@ -167,4 +167,7 @@ fn a_study_goes_on_where_it_stopped() {
     let [a, b] = [&path, &at_once].map(|p| std::fs::read_to_string(p).expect("a table"));
     assert_eq!(a, b);
     assert_eq!(a.lines().count(), 5);
+    // What another build has left is not taken over.
+    std::fs::write(path.with_extension("program"), "another").expect("a file");
+    assert!(plan.iter().all(|r| Runs::open(&path, &study.columns()).get(r).is_none()));
 }

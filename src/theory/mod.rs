@@ -13,6 +13,7 @@ pub mod elastic;
 pub mod hertz;
 pub mod impact;
 pub mod jaumann;
+pub mod jump;
 pub mod manufactured;
 pub mod neo_hookean;
 pub mod order;

@@ -1,0 +1,150 @@
+//! A tornado: how far a number moves when one thing at a time is changed, the largest span on top, in panels.
+
+use std::path::Path;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
+
+use super::PlotError;
+use super::axes::{Axis, Frame, Margins};
+use super::style::{
+    BLUE, Canvas, GREY, INK, SMALL_PX, Spot, TEXT_PX, VERMILION, WIDTH_PX, fill, lighten, line, render, stroke,
+    text_width_px, units, write_at,
+};
+use crate::check::significant;
+use crate::output::Table;
+
+/// Height of a factor.
+const ROW_PX: f64 = 24.0;
+/// Half the height of a bar.
+const HALF_PX: f64 = 7.0;
+const HEAD_PX: f64 = 40.0;
+const FOOT_PX: f64 = 46.0;
+
+/// What to draw from a table with the columns `case`, `factor`, `label` and one of numbers. The row whose factor is `base` is
+/// what all others are compared with; those of the factor `noise` are the ends of a band in which nothing can be told apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tornado<'a> {
+    /// Cases, and what to write above their panels.
+    pub panels: &'a [(&'a str, &'a str)],
+    /// Column of the numbers.
+    pub column: &'a str,
+    /// What the numbers are, with their unit.
+    pub title: &'a str,
+}
+
+/// The numbers of a factor.
+struct Factor {
+    name: String,
+    /// Least and greatest with their labels; the base among them.
+    ends: [(f64, String); 2],
+}
+
+/// A panel: the base, the band of noise, the factors.
+struct Panel<'a> {
+    title: &'a str,
+    base: f64,
+    noise: Option<[f64; 2]>,
+    factors: Vec<Factor>,
+}
+
+/// Draws `out_svg` from `csv`; rows without a number are left out.
+///
+/// # Errors
+/// [`PlotError::File`] for a missing column or file, [`PlotError::Data`] for a panel without a base.
+pub fn draw(csv: impl AsRef<Path>, what: &Tornado, out_svg: impl AsRef<Path>) -> Result<(), PlotError> {
+    let table = Table::load(csv)?;
+    let panels = what.panels.iter().map(|p| select(&table, what, p)).collect::<Result<Vec<_>, _>>()?;
+    let rows = panels.iter().map(|p| p.factors.len()).max().unwrap_or(0);
+    let height = (HEAD_PX + ROW_PX * rows as f64 + FOOT_PX) as i32;
+    render(out_svg.as_ref(), height, |canvas| {
+        let wide = f64::from(WIDTH_PX) / panels.len() as f64;
+        for (k, panel) in panels.iter().enumerate() {
+            let area = canvas.clone().shrink((units(wide * k as f64), 0), (units(wide), units(f64::from(height))));
+            draw_panel(canvas, &area, what, panel, units(wide * k as f64), rows)?;
+        }
+        Ok(())
+    })
+}
+
+fn draw_panel(
+    canvas: &Canvas<'_>,
+    area: &Canvas<'_>,
+    what: &Tornado,
+    panel: &Panel<'_>,
+    x0: i32,
+    rows: usize,
+) -> Result<(), PlotError> {
+    let names = panel.factors.iter().map(|f| text_width_px(&f.name, SMALL_PX)).fold(0.0, f64::max);
+    let margins = Margins { left: names + 14.0, right: 18.0, top: HEAD_PX, bottom: FOOT_PX };
+    let all = panel.factors.iter().flat_map(|f| f.ends.iter().map(|e| e.0));
+    let all = all.chain(panel.noise.into_iter().flatten()).chain([panel.base]);
+    let (lo, hi) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    // Room for the labels at the ends of the bars.
+    let room = 0.32 * (hi - lo).max(1e-12);
+    let x = Axis::exact(lo - room, hi + room, 4);
+    let y = Axis::named(vec![0.0, rows.max(1) as f64], vec![String::new(), String::new()]);
+    let frame = Frame::draw(area, &margins, (&x, what.title), (&y, ""))?;
+    let (left, right, top, bottom) = frame.bounds();
+    write_at(canvas, panel.title, ((left + right) / 2, top - units(16.0)), TEXT_PX, INK, HPos::Center)?;
+    let across = |v: f64| frame.spot(v, 0.0).0;
+    if let Some([a, b]) = panel.noise {
+        let corners: Vec<Spot> = vec![(across(a), top), (across(b), top), (across(b), bottom), (across(a), bottom)];
+        fill(canvas, corners, &lighten(GREY, 0.75))?;
+    }
+    let base = across(panel.base);
+    for (k, factor) in panel.factors.iter().enumerate() {
+        let height = top + units(ROW_PX * (k as f64 + 0.5));
+        write_at(canvas, &factor.name, (x0 + units(names + 4.0), height), SMALL_PX, INK, HPos::Right)?;
+        for (end, colour) in [(&factor.ends[0], BLUE), (&factor.ends[1], VERMILION)] {
+            let at = across(end.0);
+            if at == base {
+                continue;
+            }
+            let half = units(HALF_PX);
+            let corners = vec![(base, height - half), (at, height - half), (at, height + half), (base, height + half)];
+            fill(canvas, corners, &colour.mix(0.75))?;
+            let (shift, side) = if at < base { (-4.0, HPos::Right) } else { (4.0, HPos::Left) };
+            write_at(canvas, &end.1, (at + units(shift), height), 0.85 * SMALL_PX, GREY, side)?;
+        }
+    }
+    stroke(canvas, vec![(base, top), (base, bottom)], line(INK, 1.0))
+}
+
+fn select<'a>(table: &Table, what: &Tornado<'a>, panel: &(&'a str, &'a str)) -> Result<Panel<'a>, PlotError> {
+    let (cases, factors, labels) = (table.cells("case")?, table.cells("factor")?, table.cells("label")?);
+    let values = table.column(what.column)?;
+    let rows: Vec<usize> = (0..table.rows()).filter(|&k| cases[k] == panel.0 && values[k].is_finite()).collect();
+    let Some(base) = rows.iter().find(|&&k| factors[k] == "base").map(|&k| values[k]) else {
+        return Err(PlotError::data(table.path(), format!("there is no base of {}", panel.0)));
+    };
+    let noise: Vec<f64> = rows.iter().filter(|&&k| factors[k] == "noise").map(|&k| values[k]).collect();
+    let mut names: Vec<&String> = Vec::new();
+    for &k in rows.iter().filter(|&&k| !["base", "noise"].contains(&factors[k].as_str())) {
+        if !names.contains(&&factors[k]) {
+            names.push(&factors[k]);
+        }
+    }
+    let mut drawn: Vec<Factor> = names
+        .into_iter()
+        .map(|name| {
+            let mut ends = [(base, String::new()), (base, String::new())];
+            for &k in rows.iter().filter(|&&k| factors[k] == *name) {
+                let text = || format!("{} ({})", labels[k], significant(values[k], 3));
+                if values[k] < ends[0].0 {
+                    ends[0] = (values[k], text());
+                }
+                if values[k] > ends[1].0 {
+                    ends[1] = (values[k], text());
+                }
+            }
+            Factor { name: name.clone(), ends }
+        })
+        .collect();
+    drawn.sort_by(|a, b| (b.ends[1].0 - b.ends[0].0).total_cmp(&(a.ends[1].0 - a.ends[0].0)));
+    let noise = match noise[..] {
+        [a, b] => Some([a.min(b), a.max(b)]),
+        _ => None,
+    };
+    Ok(Panel { title: panel.1, base, noise, factors: drawn })
+}

@@ -1,0 +1,204 @@
+//! The literal reading of the paper on several grids: numerical error and scatter.
+//!
+//! Nothing here was chosen with a look at the paper's numbers: the case files stood before. For every quantity: the mean and
+//! scatter of nine runs on moved grids and with other packings, at 20, 10 and 5 mm; observed order, extrapolation and grid
+//! convergence index of the means where they have an order; and the numerical uncertainty that the verdict uses.
+
+use super::read_case;
+use super::runs::{self, Run};
+use super::scatter::Scatter;
+use crate::check::{Check, Expected, Kind};
+use crate::plot::PlotError;
+use crate::plot::curves::{self, Curve, Curves, Panel};
+use crate::theory::order::Study as Order;
+use crate::validation::record::Record;
+use crate::validation::{Context, Failure, Validation};
+use crate::verification::Outcome;
+use crate::verification::report::number;
+use std::path::Path;
+
+/// The analysis of the recorded runs.
+pub const VALIDATION: Validation = Validation {
+    name: "flume_baseline",
+    title: "The flume on grids of 20, 10 and 5 mm, moved and repacked: order, grid convergence index, scatter",
+    study: "54 runs, about 15 minutes",
+    run,
+    draw,
+    covers: &[],
+};
+
+/// The study and its record.
+pub const RECORD: Record = Record {
+    name: "flume_baseline",
+    study: include_str!("studies/baseline.toml"),
+    read: read_case,
+    runs: include_str!("runs/baseline.csv"),
+};
+
+/// Cell sizes, m, coarse to fine, and as they stand in the table.
+const CELLS: [(f64, &str); 3] = [(0.02, "0.02"), (0.01, "0.01"), (0.005, "0.005")];
+/// The cell size of the case files.
+const CASE_CELLS: usize = 1;
+/// Quantities that are compared or judged elsewhere.
+pub const QUANTITIES: [&str; 16] = [
+    "static_force_n",
+    "static_shear_n",
+    "static_moment_n_m",
+    "peak_20ms_n",
+    "peak_step_n",
+    "impulse_half_second_n_s",
+    "run_up_m",
+    "arrival_s",
+    "time_to_static_s",
+    "front_velocity_m_per_s",
+    "front_depth_m",
+    "froude_1",
+    "barrier_velocity_m_per_s",
+    "mobilised_1",
+    "dissipated_1",
+    "plastic_1",
+];
+
+/// What three grids say of a quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct Numerical {
+    /// Mean and scatter at 20, 10 and 5 mm.
+    pub scatter: [Scatter; 3],
+    /// What the means say.
+    pub order: Order,
+}
+
+impl Numerical {
+    /// Of the runs of a case.
+    pub fn of(runs: &[Run], case: &str, quantity: &dyn Fn(&Run) -> f64) -> Self {
+        let scatter = CELLS.map(|(_, cells)| {
+            let own = runs.iter().filter(|r| r.case == case && r.set.get("cell_m").is_some_and(|c| c == cells));
+            Scatter::of(own.map(quantity))
+        });
+        Self { scatter, order: Order::new(scatter.map(|s| s.mean), CELLS.map(|c| c.0)) }
+    }
+
+    /// Standard uncertainty of one run of the case files: its scatter, and its distance from zero cell size. That is the grid
+    /// convergence index at two standard deviations where the means have an order of 0.5 or more, and half of their range,
+    /// taken as evenly spread, otherwise.
+    pub fn uncertainty(&self) -> f64 {
+        let at = self.scatter[CASE_CELLS];
+        let means = self.scatter.map(|s| s.mean);
+        let range =
+            means.iter().fold(f64::NEG_INFINITY, |a, &m| a.max(m)) - means.iter().fold(f64::INFINITY, |a, &m| a.min(m));
+        let grid = if self.order.order >= 0.5 {
+            0.5 * self.order.index[0] * means[CASE_CELLS].abs()
+        } else {
+            0.5 * range / 3f64.sqrt()
+        };
+        grid.hypot(at.deviation)
+    }
+}
+
+/// The rows of the record.
+///
+/// # Errors
+/// The record is not as it should be, or the study is stopped.
+pub fn recorded(context: &mut Context) -> Result<Vec<Run>, Failure> {
+    Ok(runs::rows(&RECORD.table(context)?, &["cell_m"])?)
+}
+
+fn run(context: &mut Context) -> Result<Outcome, Failure> {
+    let rows = recorded(context)?;
+    let mut outcome = Outcome::default();
+    outcome.checks = judge(&rows);
+    let mut scatter = String::from(
+        "case,quantity,cell_m,mean,deviation,mean_less_deviation,mean_plus_deviation,least,greatest,runs\n",
+    );
+    let mut grids = String::from(
+        "case,quantity,trend,order,extrapolated,index_10mm_percent,index_5mm_percent,deviation_10mm,uncertainty_10mm\n",
+    );
+    for case in ["40deg", "23deg"] {
+        for quantity in QUANTITIES {
+            let n = Numerical::of(&rows, case, &|r| r.get(quantity));
+            for ((_, cells), s) in CELLS.iter().zip(n.scatter) {
+                let own = rows.iter().filter(|r| r.case == case && r.set["cell_m"] == *cells).map(|r| r.get(quantity));
+                let least = own.clone().fold(f64::INFINITY, f64::min);
+                let greatest = own.fold(f64::NEG_INFINITY, f64::max);
+                let numbers =
+                    [s.mean, s.deviation, s.mean - s.deviation, s.mean + s.deviation, least, greatest].map(number);
+                scatter += &format!("{case},{quantity},{cells},{},{}\n", numbers.join(","), s.count);
+            }
+            let o = n.order;
+            let numbers = [
+                o.order,
+                o.extrapolated,
+                100.0 * o.index[0],
+                100.0 * o.index[1],
+                n.scatter[CASE_CELLS].deviation,
+                n.uncertainty(),
+            ];
+            let cells = numbers.map(|x| if x.is_nan() { String::new() } else { number(x) });
+            grids += &format!("{case},{quantity},{},{}\n", o.trend.name(), cells.join(","));
+        }
+    }
+    outcome.tables.push(("flume_baseline_scatter".into(), scatter));
+    outcome.tables.push(("flume_baseline_grids".into(), grids));
+    Ok(outcome)
+}
+
+/// What every run must satisfy.
+pub fn judge(rows: &[Run]) -> Vec<Check> {
+    let worst =
+        |of: &dyn Fn(&Run) -> f64| rows.iter().map(of).fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
+    let at_rest = rows.iter().filter(|r| r.ended == "at rest").count();
+    let bound = |what: &str, measured, limit, reason: &str| {
+        Check::at_most(what, measured, limit, "1").because(reason).from(Kind::Conservation, "ledgers of all runs")
+    };
+    vec![
+        Check::new("runs that came to rest", at_rest as f64, Expected::AtLeast(rows.len() as f64), "1")
+            .because("static values are those of a deposit at rest")
+            .from(Kind::Conservation, "rest: 1e-4 of the energy, balanced and steady forces"),
+        bound(
+            "momentum not accounted for, largest",
+            worst(&|r| r.get("momentum_closure_1")),
+            1e-10,
+            "round-off of sums",
+        ),
+        bound(
+            "energy not accounted for over E0, largest",
+            worst(&|r| r.get("energy_residual_1")),
+            0.02,
+            "second-order terms of the transfers; 2 % is where forces would begin to suffer",
+        ),
+        bound(
+            "|static force along the flume less weight| over what the base can give, largest",
+            worst(&|r| (r.get("static_force_n") - r.get("weight_along_n")).abs() / r.get("friction_limit_n")),
+            1.02,
+            "Coulomb's law at the base; 2 % for the unbalanced force that counts as rest",
+        ),
+    ]
+}
+
+const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel<'static> {
+    Panel { title, only }
+}
+
+const SCATTER: Curves = Curves {
+    x: "cell_m",
+    x_title: "cell size (m)",
+    y_title: "force (N)",
+    curves: &[
+        Curve { column: "mean", label: "mean of nine runs", exact: false },
+        Curve { column: "mean_less_deviation", label: "one standard deviation", exact: true },
+        Curve { column: "mean_plus_deviation", label: "one standard deviation", exact: true },
+    ],
+    panels: &[
+        panel("static force, 40 degrees", &[("case", "40deg"), ("quantity", "static_force_n")]),
+        panel("static force, 23 degrees", &[("case", "23deg"), ("quantity", "static_force_n")]),
+        panel("largest force over 20 ms, 40 degrees", &[("case", "40deg"), ("quantity", "peak_20ms_n")]),
+        panel("largest force over 20 ms, 23 degrees", &[("case", "23deg"), ("quantity", "peak_20ms_n")]),
+    ],
+    ..Curves::LINEAR
+};
+
+fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
+    let name = "flume_baseline_plot.svg";
+    curves::draw(folder.join("flume_baseline_scatter.csv"), &SCATTER, folder.join(name))?;
+    Ok(vec![name.into()])
+}

@@ -1,0 +1,252 @@
+//! The open inputs together: which of them the paper's numbers can identify, and what no set of them can fit.
+//!
+//! The misfit of a run to a case is the mean of ((ours - published) / u)^2 over the published numbers that have a counterpart,
+//! with u^2 the sum of the squares of the datum's half width and of our numerical uncertainty. One set has to serve both angles.
+//! Runs are judged at rest. The sample is run on 20 mm cells; its best are run again at 10 mm, and the best of those is frozen in
+//! `40deg_calibrated.toml` and `23deg_calibrated.toml`.
+
+use super::baseline::{self, Numerical, judge};
+use super::runs::{self, Run};
+use super::{compare, read_case};
+use crate::check::{Check, Expected, Kind};
+use crate::output::Table;
+use crate::plot::PlotError;
+use crate::plot::curves::{self, Curve, Curves, Panel};
+use crate::validation::data::Datum;
+use crate::validation::record::Record;
+use crate::validation::{Context, Failure, Validation};
+use crate::verification::Outcome;
+use crate::verification::report::number;
+use std::path::Path;
+
+/// The analysis of the recorded runs.
+pub const VALIDATION: Validation = Validation {
+    name: "flume_calibration",
+    title: "The open inputs of the flume together: misfit, profiles, trade-off between the angles, the best set",
+    study: "480 runs on coarse cells and 24 on fine ones, about 25 minutes",
+    run,
+    draw,
+    covers: &[],
+};
+
+/// The sample.
+pub const SAMPLE: Record = Record {
+    name: "flume_calibration",
+    study: include_str!("studies/calibration.toml"),
+    read: read_case,
+    runs: include_str!("runs/calibration.csv"),
+};
+
+/// The best of the sample on finer cells.
+pub const REFINED: Record = Record {
+    name: "flume_refined",
+    study: include_str!("studies/refined.toml"),
+    read: read_case,
+    runs: include_str!("runs/refined.csv"),
+};
+
+/// Numbers that are sampled, and into how many classes a profile divides them.
+const RANGES: [&str; 3] = ["gate_speed_m_per_s", "side_friction_1", "pic_rate_per_s"];
+const CLASSES: usize = 6;
+/// Words that are sampled.
+const CHOICES: [&str; 2] = ["container", "cone"];
+/// Cases in the order of the tables.
+const ANGLES: [&str; 2] = ["40deg", "23deg"];
+
+/// Published numbers of a case with what stands beside them and the standard deviation of the difference.
+pub struct Target {
+    /// The number.
+    pub datum: Datum,
+    /// Ours, from the quantities of a run.
+    pub of: fn(&dyn Fn(&str) -> f64) -> f64,
+    /// Standard deviation of ours from numerical causes.
+    pub numerical: f64,
+}
+
+impl Target {
+    /// Distance of a run over its standard deviation.
+    pub fn distance(&self, run: &Run) -> f64 {
+        ((self.of)(&|q| run.get(q)) - self.datum.value) / self.datum.uncertainty.hypot(self.numerical)
+    }
+}
+
+/// What a case is fitted to: closed forms are no data.
+pub fn targets(case: &str, repetitions: &[Run]) -> Vec<Target> {
+    let published = compare::published(case).into_iter().filter(|(datum, _)| datum.kind != "theory");
+    published
+        .map(|(datum, of)| {
+            let numerical = Numerical::of(repetitions, case, &|r| of(&|q| r.get(q))).uncertainty();
+            Target { datum, of, numerical }
+        })
+        .collect()
+}
+
+/// One set of inputs, run at both angles.
+struct Member<'a> {
+    label: &'a str,
+    runs: [&'a Run; 2],
+    misfit: [f64; 2],
+}
+
+impl Member<'_> {
+    fn both(&self) -> f64 {
+        0.5 * (self.misfit[0] + self.misfit[1])
+    }
+}
+
+/// Sets whose runs came to rest at both angles, best first.
+fn members<'a>(rows: &'a [Run], targets: &[Vec<Target>; 2]) -> Vec<Member<'a>> {
+    let find =
+        |case: &str, label: &str| rows.iter().find(|r| r.case == case && r.label == label && r.ended == "at rest");
+    let mut members: Vec<Member> = (rows.iter().filter(|r| r.case == ANGLES[0]))
+        .filter_map(|r| {
+            let runs = [find(ANGLES[0], &r.label)?, find(ANGLES[1], &r.label)?];
+            let misfit = [0, 1].map(|k| {
+                let squares = targets[k].iter().map(|t| t.distance(runs[k]).powi(2));
+                squares.sum::<f64>() / targets[k].len() as f64
+            });
+            Some(Member { label: &r.label, runs, misfit })
+        })
+        .filter(|m| m.both().is_finite())
+        .collect();
+    members.sort_by(|a, b| a.both().total_cmp(&b.both()));
+    members
+}
+
+fn run(context: &mut Context) -> Result<Outcome, Failure> {
+    let columns: Vec<&str> = RANGES.into_iter().chain(CHOICES).collect();
+    let sample = runs::rows(&SAMPLE.table(context)?, &columns)?;
+    let refined = runs::rows(&REFINED.table(context)?, &[])?;
+    let repetitions = runs::rows(&Table::parse(baseline::RECORD.runs, "flume/runs/baseline.csv")?, &["cell_m"])?;
+    let targets = ANGLES.map(|case| targets(case, &repetitions));
+    let mut outcome = Outcome::default();
+    let kept: Vec<Run> = sample.iter().chain(&refined).filter(|r| r.ended == "at rest").cloned().collect();
+    outcome.checks = judge(&kept);
+    let share = kept.len() as f64 / (sample.len() + refined.len()) as f64;
+    outcome.check(
+        Check::new("share of the runs that came to rest", share, Expected::AtLeast(0.95), "1")
+            .because("runs that creep or slosh to the end time are left out; many of them would bias the sample")
+            .from(Kind::Conservation, "rest: 1e-4 of the energy, balanced and steady forces"),
+    );
+    let members = members(&sample, &targets);
+    outcome.tables.push(("flume_calibration_sets".into(), sets(&members, &columns)));
+    outcome.tables.push(("flume_calibration_profiles".into(), profiles(&members)));
+    outcome.tables.push(("flume_calibration_front".into(), front(&members)));
+    outcome
+        .tables
+        .push(("flume_calibration_residuals".into(), residuals(&self::members(&refined, &targets), &targets)));
+    Ok(outcome)
+}
+
+/// All sets, best first.
+fn sets(members: &[Member], columns: &[&str]) -> String {
+    let mut text = format!("set,{},misfit_40deg,misfit_23deg,misfit\n", columns.join(","));
+    for m in members {
+        let inputs: Vec<String> = columns.iter().map(|c| compare::quoted(&m.runs[0].set[*c])).collect();
+        let [a, b] = m.misfit.map(number);
+        text += &format!("{},{},{a},{b},{}\n", m.label, inputs.join(","), number(m.both()));
+    }
+    text
+}
+
+/// The least misfit in each class of each input: an input whose profile is flat cannot be identified.
+fn profiles(members: &[Member]) -> String {
+    let mut text = String::from("input,class,middle,misfit_40deg,misfit_23deg,misfit,sets\n");
+    let mut line = |input: &str, class: &str, middle: f64, of: &dyn Fn(&Member) -> bool| {
+        let own: Vec<&Member> = members.iter().filter(|m| of(m)).collect();
+        let least = |value: &dyn Fn(&Member) -> f64| own.iter().map(|m| value(m)).fold(f64::INFINITY, f64::min);
+        let numbers = [least(&|m| m.misfit[0]), least(&|m| m.misfit[1]), least(&|m| m.both())].map(number);
+        let middle = if middle.is_nan() { String::new() } else { number(middle) };
+        text += &format!("{input},{},{middle},{},{}\n", compare::quoted(class), numbers.join(","), own.len());
+    };
+    for input in RANGES {
+        let value = |m: &Member| m.runs[0].set[input].parse::<f64>().unwrap_or(f64::NAN);
+        let mut sorted: Vec<f64> = members.iter().map(value).filter(|v| v.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        for class in 0..CLASSES {
+            // Classes of equal number.
+            let part = &sorted[class * sorted.len() / CLASSES..(class + 1) * sorted.len() / CLASSES];
+            let (Some(&low), Some(&high)) = (part.first(), part.last()) else { continue };
+            let inside = |m: &Member| (low..=high).contains(&value(m));
+            line(input, &format!("{} to {}", number(low), number(high)), part[part.len() / 2], &inside);
+        }
+    }
+    for input in CHOICES {
+        let mut names: Vec<&String> = members.iter().map(|m| &m.runs[0].set[input]).collect();
+        names.sort();
+        names.dedup();
+        for name in names {
+            line(input, name, f64::NAN, &|m| m.runs[0].set[input] == *name);
+        }
+    }
+    text
+}
+
+/// Sets of which no other is better at both angles.
+fn front(members: &[Member]) -> String {
+    let beaten =
+        |m: &Member| members.iter().any(|o| (0..2).all(|k| o.misfit[k] <= m.misfit[k]) && o.misfit != m.misfit);
+    let mut best: Vec<&Member> = members.iter().filter(|m| !beaten(m)).collect();
+    best.sort_by(|a, b| a.misfit[0].total_cmp(&b.misfit[0]));
+    let mut text = String::from("set,misfit_40deg,misfit_23deg\n");
+    for m in best {
+        text += &format!("{},{},{}\n", m.label, number(m.misfit[0]), number(m.misfit[1]));
+    }
+    text
+}
+
+/// Every published number against every set that was run on fine cells.
+fn residuals(members: &[Member], targets: &[Vec<Target>; 2]) -> String {
+    let mut text = String::from("set,misfit,case,quantity,published,standard_deviation,checkdam,distance\n");
+    for m in members {
+        for (k, case) in ANGLES.iter().enumerate() {
+            for t in &targets[k] {
+                let ours = (t.of)(&|q| m.runs[k].get(q));
+                let deviation = t.datum.uncertainty.hypot(t.numerical);
+                let numbers = [t.datum.value, deviation, ours, t.distance(m.runs[k])].map(number);
+                let (set, quantity) = (compare::quoted(m.label), compare::quoted(&t.datum.quantity));
+                text += &format!("{set},{},{case},{quantity},{}\n", number(m.both()), numbers.join(","));
+            }
+        }
+    }
+    text
+}
+
+const fn panel(title: &'static str, input: &'static [(&'static str, &'static str)]) -> Panel<'static> {
+    Panel { title, only: input }
+}
+
+const PROFILES: Curves = Curves {
+    x: "middle",
+    x_title: "input, middle of its class",
+    y_title: "least misfit in the class",
+    curves: &[
+        Curve { column: "misfit_40deg", label: "40 degrees alone", exact: false },
+        Curve { column: "misfit_23deg", label: "23 degrees alone", exact: false },
+        Curve { column: "misfit", label: "one set for both", exact: false },
+    ],
+    panels: &[
+        panel("speed of the gate (m/s)", &[("input", "gate_speed_m_per_s")]),
+        panel("friction of the side walls", &[("input", "side_friction_1")]),
+        panel("rate of PIC damping (1/s)", &[("input", "pic_rate_per_s")]),
+    ],
+    ..Curves::LINEAR
+};
+
+const FRONT: Curves = Curves {
+    x: "misfit_40deg",
+    x_title: "misfit at 40 degrees",
+    y_title: "misfit at 23 degrees",
+    curves: &[Curve { column: "misfit_23deg", label: "sets of which no other is better at both angles", exact: false }],
+    ..Curves::LINEAR
+};
+
+fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
+    let drawn = [("profiles", &PROFILES), ("front", &FRONT)];
+    let draw = |(stem, what): (&str, &Curves)| {
+        let name = format!("flume_calibration_{stem}_plot.svg");
+        let table = folder.join(format!("flume_calibration_{stem}.csv"));
+        curves::draw(table, what, folder.join(&name)).map(|()| name)
+    };
+    drawn.into_iter().map(draw).collect()
+}

@@ -1,0 +1,161 @@
+//! A gate on force magnitude: the flume on a coarse grid, repeated on moved grids and with other packings.
+//!
+//! A force that friction holds is a history: the same case with its sums in another order gives a static force that is a percent
+//! or two off. So no single run can tell physics that is 3 % wrong from noise, and a mean of many can. The means of both cases are
+//! compared with recorded ones; what is allowed is three times the standard error of the difference of two such means, from
+//! the recorded scatter, and never less than 1e-6, the round-off of a sum.
+
+use super::runs::{self, Run};
+use super::scatter::Scatter;
+use super::{make_faulty, read_case};
+use crate::check::{Check, Expected, Kind, Tolerance};
+use crate::output::Table;
+use crate::plot::PlotError;
+use crate::study::{Runs, Study, plan};
+use crate::validation::record::processors;
+use crate::validation::{Context, Failure, Validation};
+use crate::verification::report::number;
+use crate::verification::{Fault, FaultKind, Outcome};
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// The gate.
+pub const VALIDATION: Validation = Validation {
+    name: "flume_noise",
+    title: "Mean forces, impulses, moments, velocities and energy shares of repeated runs, against recorded means",
+    study: "",
+    run,
+    draw: |_: &Path| -> Result<Vec<String>, PlotError> { Ok(Vec::new()) },
+    covers: &[(FaultKind::ContactForce, 1.03), (FaultKind::Gravity, 1.03)],
+};
+
+const STUDY: &str = include_str!("studies/noise.toml");
+/// Mean, standard deviation and number of runs of each gated quantity, written by the run that this module was made with.
+const RECORDED: &str = include_str!("runs/noise.csv");
+
+/// What is gated: forces, impulse, moments, velocities, depths, shares of energy.
+const GATED: [&str; 17] = [
+    "static_force_n",
+    "static_shear_n",
+    "static_moment_n_m",
+    "static_layer2_n",
+    "peak_20ms_n",
+    "peak_step_n",
+    "peak_moment_n_m",
+    "impulse_half_second_n_s",
+    "run_up_m",
+    "arrival_s",
+    "front_velocity_m_per_s",
+    "front_depth_m",
+    "barrier_velocity_m_per_s",
+    "dissipated_1",
+    "plastic_1",
+    "friction_1",
+    "kinetic_max_1",
+];
+/// Those that are proportional to the force that the barrier reports.
+const FORCES: [&str; 7] = [
+    "static_force_n",
+    "static_shear_n",
+    "static_moment_n_m",
+    "peak_20ms_n",
+    "peak_step_n",
+    "peak_moment_n_m",
+    "impulse_half_second_n_s",
+];
+/// Standard errors that are allowed.
+const ERRORS: f64 = 3.0;
+
+fn run(context: &mut Context) -> Result<Outcome, Failure> {
+    let rows = runs(context)?;
+    let mut outcome = Outcome::default();
+    let mut text = String::from("case,quantity,mean,deviation,runs\n");
+    let recorded = Table::parse(RECORDED, "validation/flume/runs/noise.csv")?;
+    let (cases, quantities) = (recorded.cells("case")?, recorded.cells("quantity")?);
+    for case in ["40deg", "23deg"] {
+        if rows.iter().all(|r| r.case != case) {
+            continue;
+        }
+        let own: Vec<&Run> = rows.iter().filter(|r| r.case == case).collect();
+        let ended = own.iter().filter(|r| r.ended == "at rest").count();
+        outcome.check(
+            Check::value(format!("{case}: runs that came to rest"), ended as f64, own.len() as f64, "1")
+                .because("a static force is one at rest")
+                .from(Kind::Conservation, "rest: 1e-4 of the energy, balanced and steady forces"),
+        );
+        for quantity in GATED {
+            let factor = if FORCES.contains(&quantity) { context.fault.contact_force } else { 1.0 };
+            let now = Scatter::of(own.iter().map(|r| factor * r.get(quantity)));
+            let (mean, deviation) = (number(now.mean), number(now.deviation));
+            text += &format!("{case},{quantity},{mean},{deviation},{}\n", now.count);
+            let row = (0..recorded.rows()).find(|&k| cases[k] == case && quantities[k] == quantity);
+            let cell = |column: &str| -> Result<f64, Failure> {
+                Ok(row.map_or(f64::NAN, |k| recorded.column(column).map_or(f64::NAN, |c| c[k])))
+            };
+            let before = Scatter {
+                mean: cell("mean")?,
+                deviation: cell("deviation")?,
+                count: if cell("runs")?.is_finite() { cell("runs")? as usize } else { 0 },
+            };
+            let allowed = (ERRORS * std::f64::consts::SQRT_2 * before.standard_error()).max(1e-6 * before.mean.abs());
+            outcome.check(
+                Check::value(format!("{case}: mean of {quantity}"), now.mean, before.mean, "SI")
+                    .within(
+                        Tolerance::Absolute(allowed),
+                        "three standard errors of the difference of two means over as many repetitions",
+                    )
+                    .from(Kind::Golden, "recorded means, validation/flume/runs/noise.csv"),
+            );
+        }
+        if case != "40deg" {
+            continue;
+        }
+        // The narrowest gate on a force says what the validation can see. At 23 degrees, where the deposit hardly leans on the
+        // barrier, it sees no less than some 8 %; there the bookkeeping of `flume` is the gate on what the barrier reports.
+        let force = Scatter::of(own.iter().map(|r| r.get("static_force_n")));
+        let peak = Scatter::of(own.iter().map(|r| r.get("peak_20ms_n")));
+        let seen = [force, peak].map(|s| ERRORS * std::f64::consts::SQRT_2 * s.standard_error() / s.mean);
+        outcome.check(
+            Check::new(
+                format!("{case}: smallest change of a force that is noticed"),
+                seen[0].min(seen[1]),
+                Expected::AtMost(0.03),
+                "1",
+            )
+            .because("a force that is 3 % wrong must not pass")
+            .from(Kind::Conservation, "three standard errors of the difference of two means, static and 20 ms peak"),
+        );
+    }
+    outcome.tables.push(("flume_noise_means".into(), text));
+    Ok(outcome)
+}
+
+/// The repetitions, each on a thread of its own. Under a fault the steep case is enough.
+fn runs(context: &mut Context) -> Result<Vec<Run>, Failure> {
+    // What the barrier reports is multiplied afterwards: the runs are the same.
+    static SOUND: Mutex<Vec<Run>> = Mutex::new(Vec::new());
+    let physics = Fault { contact_force: 1.0, ..context.fault };
+    let mut sound = SOUND.lock().unwrap_or_else(PoisonError::into_inner);
+    if physics == Fault::NONE && !sound.is_empty() {
+        return Ok(sound.clone());
+    }
+    let study = Study::parse(STUDY, "noise.toml")?;
+    let mut plan = plan(&study, "noise.toml", &read_case)?;
+    plan.retain(|run| physics == Fault::NONE || run.case_name == "40deg");
+    for run in &mut plan {
+        make_faulty(&mut run.case, &physics);
+    }
+    let mut runs = Runs::in_memory(&study.columns());
+    let progress = &mut *context.progress;
+    let finished = crate::study::run(&plan, &mut runs, processors(), &mut |p| {
+        progress(&if p.ended.is_some() { format!("{} of {} runs", p.finished, p.total) } else { String::new() })
+    })?;
+    if !finished.is_complete() {
+        return Err(Failure::Stopped);
+    }
+    let rows = runs::rows(&Table::parse(&runs.csv(&plan), "noise")?, &study.columns())?;
+    if physics == Fault::NONE {
+        sound.clone_from(&rows);
+    }
+    Ok(rows)
+}
