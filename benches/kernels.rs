@@ -42,6 +42,7 @@ impl Fixture {
             point_volume: volume,
             points_per_direction: 2,
             point_spacing: step,
+            weightless: false,
         };
         let mut points = Points::default();
         for k in 0..4 * CELLS[0] * CELLS[1] {

@@ -257,6 +257,8 @@ pub struct Body {
     pub points_per_direction: usize,
     /// Distance between material points at the start, m.
     pub point_spacing: f64,
+    /// Whether gravity leaves it alone; needs a velocity field of its own, as bodies in contact have.
+    pub weightless: bool,
 }
 
 impl Body {

@@ -57,6 +57,7 @@ mod tests {
             point_volume: 2.0,
             points_per_direction: 1,
             point_spacing: 1.0,
+            weightless: false,
         }
     }
 

@@ -58,6 +58,7 @@ impl Brick {
             point_volume: volume,
             points_per_direction: self.per_cell,
             point_spacing: s,
+            weightless: false,
         }
     }
 }

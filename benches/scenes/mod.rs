@@ -49,6 +49,7 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
         point_volume: volume,
         points_per_direction: PER_CELL,
         point_spacing: step,
+        weightless: false,
     };
     let corner = [0.0, 0.0].into();
     Simulation::new(Scene {
@@ -104,6 +105,7 @@ pub fn barrier(spacing: f64) -> Simulation {
         point_volume: volume,
         points_per_direction: PER_CELL,
         point_spacing: step,
+        weightless: false,
     };
     let plane =
         |name: &str, normal: [f64; 2], friction| Boundary::plane(name, [0.0; 2].into(), normal.into(), friction);

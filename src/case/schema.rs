@@ -139,6 +139,10 @@ pub struct Body {
     /// Which of the random packings. Default 0.
     #[serde(default)]
     pub jitter_seed: u32,
+    /// Whether gravity leaves the body alone, as a barrier whose density is not known may need; only for bodies in
+    /// `contacts`. Default false.
+    #[serde(default)]
+    pub weightless: bool,
     /// The mass the body is meant to have, kg, positive. A check, not an input: refused unless density x area x thickness
     /// gives it to 0.1 %.
     pub mass_kg: Option<f64>,
@@ -200,7 +204,7 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Gauges {
-    /// Name of the boundary whose force is measured.
+    /// Name of the boundary, or of the body in `contacts`, whose force is measured.
     pub barrier: Option<String>,
     /// Name of the boundary whose friction holds the deposit.
     pub base: Option<String>,

@@ -45,15 +45,15 @@ fn work_off(path: &Path, folder: &Path, threads: Option<u16>) -> Result<ExitCode
     });
     display.clear();
     let finished = finished?;
-    if finished.rows > finished.failed
-        && let Some(figure) = &study.figure
-    {
-        draw(figure, &table, &folder.join("figure.svg"))?;
-    }
     say!("{} of {} runs are in {}", finished.rows, finished.total, table.display());
     if !finished.is_complete() {
         say!("the same command goes on where it stopped");
         return Ok(ExitCode::from(ENDED_EARLY));
+    }
+    if finished.rows > finished.failed
+        && let Some(figure) = &study.figure
+    {
+        draw(figure, &table, &folder.join("figure.svg"))?;
     }
     if finished.failed > 0 {
         say!("{} runs failed; the column `ended` says why", finished.failed);

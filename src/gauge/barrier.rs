@@ -1,6 +1,7 @@
-//! Force on a boundary from the impulses that it gave to the grid nodes.
+//! Force on a barrier from the impulses that it gave to the grid nodes: on a rigid boundary, or on a body in contact.
 
-use crate::simulation::Simulation;
+use crate::boundary::Boundary;
+use crate::simulation::{ContactPoint, Simulation};
 
 /// Mean forces over a sampling interval, on the boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,10 +27,19 @@ pub struct Peak {
     pub time: f64,
 }
 
-/// Accumulates, step by step, what a boundary receives.
+/// What a gauge sits on.
+#[derive(Debug, Clone)]
+enum Source {
+    /// A boundary, by index.
+    Boundary(usize),
+    /// A body, by index, with its face at the start.
+    Body(usize, Box<Boundary>),
+}
+
+/// Accumulates, step by step, what a barrier receives.
 #[derive(Debug, Clone)]
 pub struct BarrierGauge {
-    boundary: usize,
+    source: Source,
     /// -1 where a positive rotation is counter-clockwise but overturning is clockwise.
     turn: f64,
     impulse: [f64; 2],
@@ -47,13 +57,23 @@ pub struct BarrierGauge {
 impl BarrierGauge {
     /// A gauge on a boundary, with pressure bins one cell high.
     pub fn new(simulation: &Simulation, boundary: usize) -> Self {
-        let b = &simulation.boundaries()[boundary];
+        Self::on(simulation, Source::Boundary(boundary))
+    }
+
+    /// A gauge on a body in contact: on what its contacts give to it, in the directions and about the foot of `face`, which says
+    /// where its face stands at the start.
+    pub fn on_body(simulation: &Simulation, body: usize, face: Boundary) -> Self {
+        Self::on(simulation, Source::Body(body, Box::new(face)))
+    }
+
+    fn on(simulation: &Simulation, source: Source) -> Self {
+        let b = source.face(simulation);
         let bin_height = simulation.spacing();
         let bins = if b.height().is_finite() { (b.height() / bin_height).round() as usize + 1 } else { 0 };
         // The wall turns over when its crest moves away from the material, against the normal.
         let turn = (b.tangent.x * -b.normal.y - b.tangent.y * -b.normal.x).signum();
         Self {
-            boundary,
+            source,
             turn,
             impulse: [0.0; 2],
             moment: 0.0,
@@ -71,12 +91,11 @@ impl BarrierGauge {
     /// Reads the last step.
     pub fn after_step(&mut self, simulation: &Simulation) {
         let dt = simulation.time_step().dt;
-        let b = &simulation.boundaries()[self.boundary];
-        let tally = &simulation.step_tallies()[self.boundary];
-        let (px, py) = (-tally.impulse[0], -tally.impulse[1]);
+        let b = self.source.face(simulation);
+        let ([px, py], moment) = self.source.impulse(simulation);
         let normal = -(px * b.normal.x + py * b.normal.y);
         let tangential = px * b.tangent.x + py * b.tangent.y;
-        let moment = -tally.moment * self.turn;
+        let moment = moment * self.turn;
         self.impulse[0] += normal;
         self.impulse[1] += tangential;
         self.total_impulse[0] += normal;
@@ -92,11 +111,23 @@ impl BarrierGauge {
         }
         self.profile_duration += dt;
         if normal != 0.0 || tangential != 0.0 {
-            for hold in simulation.holds().filter(|h| h.boundary as usize == self.boundary) {
-                let bin = (hold.along / self.bin_height).round();
-                let p = hold.vector_impulse();
-                if let Some(sum) = self.profile.get_mut(bin.max(0.0) as usize) {
+            let (profile, height) = (&mut self.profile, self.bin_height);
+            let mut add = |along: f64, p: [f64; 2]| {
+                if let Some(sum) = profile.get_mut((along / height).round().max(0.0) as usize) {
                     *sum += p[0] * b.normal.x + p[1] * b.normal.y;
+                }
+            };
+            match &self.source {
+                Source::Boundary(boundary) => {
+                    let own = simulation.holds().filter(|h| h.boundary as usize == *boundary);
+                    own.for_each(|hold| add(hold.along, hold.vector_impulse()));
+                }
+                Source::Body(body, face) => {
+                    let own = simulation.contact_points().iter();
+                    own.filter_map(|p| Some((p, on_body(simulation, p.contact, *body)?))).for_each(|(p, sign)| {
+                        let ContactPoint { x, impulse, .. } = *p;
+                        add(face.face_coordinates(x).1, impulse.map(|i| -sign * i));
+                    });
                 }
             }
         }
@@ -153,9 +184,65 @@ impl BarrierGauge {
         self.total_impulse
     }
 
-    /// Index of the boundary.
-    pub fn boundary(&self) -> usize {
-        self.boundary
+    /// Index of the boundary; `None` for a body.
+    pub fn boundary(&self) -> Option<usize> {
+        match self.source {
+            Source::Boundary(boundary) => Some(boundary),
+            Source::Body(..) => None,
+        }
+    }
+
+    /// The face on which force and moment are measured; of a body, as it stood at the start.
+    pub fn face<'a>(&'a self, simulation: &'a Simulation) -> &'a Boundary {
+        self.source.face(simulation)
+    }
+
+    /// Normal force in the last step, N.
+    pub fn step_force(&self, simulation: &Simulation) -> f64 {
+        let (p, b) = (self.source.impulse(simulation).0, self.face(simulation));
+        -(p[0] * b.normal.x + p[1] * b.normal.y) / simulation.time_step().dt
+    }
+}
+
+/// 1 if what contact number `contact` gives is given to `body`, -1 if it is taken from it, `None` if the body is not in it.
+fn on_body(simulation: &Simulation, contact: usize, body: usize) -> Option<f64> {
+    let rule = simulation.contacts().nth(contact)?;
+    [-1.0, 1.0].into_iter().zip(rule.bodies).find_map(|(sign, b)| (b == body).then_some(sign))
+}
+
+/// What all contacts of a body gave to it in the last step: impulse (N s), and its moment about the origin (N m s).
+pub fn contact_impulse(simulation: &Simulation, body: usize) -> ([f64; 2], f64) {
+    let (mut impulse, mut moment) = ([0.0; 2], 0.0);
+    for (contact, tally) in simulation.contact_tallies().enumerate() {
+        let Some(sign) = on_body(simulation, contact, body) else { continue };
+        impulse[0] += sign * tally.exchange.impulse[0];
+        impulse[1] += sign * tally.exchange.impulse[1];
+        moment += sign * tally.moment;
+    }
+    (impulse, moment)
+}
+
+impl Source {
+    fn face<'a>(&'a self, simulation: &'a Simulation) -> &'a Boundary {
+        match self {
+            Source::Boundary(boundary) => &simulation.boundaries()[*boundary],
+            Source::Body(_, face) => face,
+        }
+    }
+
+    /// Impulse on the barrier in the last step (N s), and its moment about the foot, counter-clockwise (N m s).
+    fn impulse(&self, simulation: &Simulation) -> ([f64; 2], f64) {
+        match self {
+            Source::Boundary(boundary) => {
+                let tally = &simulation.step_tallies()[*boundary];
+                (tally.impulse.map(|p| -p), -tally.moment)
+            }
+            Source::Body(body, face) => {
+                let (p, about_origin) = contact_impulse(simulation, *body);
+                let foot = face.foot();
+                (p, about_origin - (foot.x * p[1] - foot.y * p[0]))
+            }
+        }
     }
 }
 

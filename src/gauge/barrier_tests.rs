@@ -62,7 +62,7 @@ fn impulse_is_the_momentum_that_the_wall_stops() {
     for view in View::ALL {
         let mut sim = impact(view, 0.0, [2.0, -0.5], Friction::Coulomb(0.1));
         let mut gauge = BarrierGauge::new(&sim, 0);
-        assert_eq!(gauge.boundary(), 0);
+        assert_eq!(gauge.boundary(), Some(0));
         let before = sim.stock().momentum;
         for step in 0..5 {
             sim.step().unwrap();
@@ -197,7 +197,7 @@ fn planes_have_no_profile_and_each_boundary_its_own_gauge() {
     assert!(close(gauges[0].total_impulse()[0], after[1] - before[1]));
     assert!(close(gauges[1].total_impulse()[0], after[0] - before[0]));
     assert!(gauges[0].profile(THICKNESS).is_empty());
-    assert_eq!(gauges.each_ref().map(BarrierGauge::boundary), [0, 1]);
+    assert_eq!(gauges.each_ref().map(BarrierGauge::boundary), [Some(0), Some(1)]);
     let rows = gauges[1].profile(THICKNESS);
     let sum: f64 = rows.iter().enumerate().map(|(k, r)| r.1 * if k % 4 == 0 { 0.5 * H } else { H }).sum();
     assert!(close(sum * THICKNESS, gauges[1].sample().normal));

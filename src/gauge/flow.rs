@@ -1,5 +1,6 @@
 //! Front, depth, velocity, run-up and overtopping.
 
+use crate::body::Particle;
 use crate::boundary::{Boundary, Friction};
 use crate::simulation::Simulation;
 
@@ -19,10 +20,16 @@ pub struct Front {
     pub depth: f64,
 }
 
-/// Finds the front. `scratch` is memory to reuse.
-pub fn front(simulation: &Simulation, scratch: &mut Vec<(f64, f64, f64, f64)>) -> Front {
+/// The points of everything that flows: of all bodies but the one that is the `barrier` and those without weight, which are
+/// structures, with the index of their body.
+pub fn flowing(simulation: &Simulation, barrier: Option<usize>) -> impl Iterator<Item = (usize, Particle)> {
+    simulation.particles().filter(move |(body, _)| Some(*body) != barrier && !simulation.bodies()[*body].weightless)
+}
+
+/// Finds the front of the flow (see [`flowing`]). `scratch` is memory to reuse.
+pub fn front(simulation: &Simulation, barrier: Option<usize>, scratch: &mut Vec<(f64, f64, f64, f64)>) -> Front {
     scratch.clear();
-    scratch.extend(simulation.particles().map(|(b, p)| {
+    scratch.extend(flowing(simulation, barrier).map(|(b, p)| {
         let body = &simulation.bodies()[b];
         (p.x[0], p.v[0], body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO))
     }));
@@ -59,10 +66,10 @@ pub fn front(simulation: &Simulation, scratch: &mut Vec<(f64, f64, f64, f64)>) -
 const MAX_VOLUME_RATIO: f64 = 1.5;
 
 /// Depth (m) and mean velocity along x (m/s) in a strip two cells wide around each station.
-pub fn stations(simulation: &Simulation, at: &[f64]) -> Vec<(f64, f64)> {
+pub fn stations(simulation: &Simulation, barrier: Option<usize>, at: &[f64]) -> Vec<(f64, f64)> {
     let h = simulation.spacing();
     let mut sums = vec![(0.0, 0.0, 0.0); at.len()];
-    for (b, p) in simulation.particles() {
+    for (b, p) in flowing(simulation, barrier) {
         for (sum, &x) in sums.iter_mut().zip(at) {
             if (p.x[0] - x).abs() <= h {
                 let body = &simulation.bodies()[b];
@@ -134,9 +141,14 @@ impl Window {
 }
 
 /// Mean and 95th percentile of the speed of the material in a window, m/s; zero where it is empty.
-pub fn window_speed(simulation: &Simulation, window: &Window, scratch: &mut Vec<f64>) -> (f64, f64) {
+pub fn window_speed(
+    simulation: &Simulation,
+    barrier: Option<usize>,
+    window: &Window,
+    scratch: &mut Vec<f64>,
+) -> (f64, f64) {
     scratch.clear();
-    scratch.extend(simulation.particles().filter(|(_, p)| window.contains(p.x)).map(|(_, p)| p.speed()));
+    scratch.extend(flowing(simulation, barrier).filter(|(_, p)| window.contains(p.x)).map(|(_, p)| p.speed()));
     if scratch.is_empty() {
         return (0.0, 0.0);
     }
@@ -157,10 +169,9 @@ pub struct FieldCell {
 }
 
 /// Mean velocities in the grid cells that hold material, column by column.
-pub fn velocity_field(simulation: &Simulation) -> Vec<FieldCell> {
+pub fn velocity_field(simulation: &Simulation, barrier: Option<usize>) -> Vec<FieldCell> {
     let h = simulation.spacing();
-    let mut points: Vec<_> = simulation
-        .particles()
+    let mut points: Vec<_> = flowing(simulation, barrier)
         .map(|(b, p)| {
             let body = &simulation.bodies()[b];
             let cell = ((p.x[0] / h).floor() as i64, (p.x[1] / h).floor() as i64);

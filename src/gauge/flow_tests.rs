@@ -44,9 +44,9 @@ fn wall(x: f64) -> Boundary {
 #[test]
 fn no_material_has_no_front() {
     let sim = simulation(0.02, [vec![], vec![]], vec![]);
-    assert_eq!(front(&sim, &mut Vec::new()), Front::default());
-    assert_eq!(stations(&sim, &[0.0]), [(0.0, 0.0)]);
-    assert!(velocity_field(&sim).is_empty());
+    assert_eq!(front(&sim, None, &mut Vec::new()), Front::default());
+    assert_eq!(stations(&sim, None, &[0.0]), [(0.0, 0.0)]);
+    assert!(velocity_field(&sim, None).is_empty());
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn front_is_where_one_percent_of_the_mass_has_passed() {
     let sim = simulation(0.02, [light, heavy], vec![]);
     assert!(close(sim.mass(), 300.0));
     let mut scratch = vec![(5.0, 5.0, 5.0, 5.0)];
-    let front = front(&sim, &mut scratch);
+    let front = front(&sim, None, &mut scratch);
     assert_eq!(front.x, 1.5);
     assert!(close(front.velocity, (9.0 + 8.0 + 2.0 * 7.0 + 2.0 * 1.0) / 6.0), "{front:?}");
 }
@@ -77,7 +77,7 @@ fn depth_of_the_front_is_that_of_the_fullest_strip() {
     let deepest = |behind: &[(f64, &[f64])]| {
         let points = behind.iter().flat_map(|&(back, ratios)| strip(back, ratios)).collect();
         let sim = simulation(0.02, [points, vec![]], vec![]);
-        let front = front(&sim, &mut Vec::new());
+        let front = front(&sim, None, &mut Vec::new());
         assert_eq!(front.x, 1.5);
         front.depth * 0.04 * THICKNESS / BODIES[0].1
     };
@@ -88,17 +88,17 @@ fn depth_of_the_front_is_that_of_the_fullest_strip() {
     // The far end of the last strip is open.
     let points = [strip(0.0, &[1.0]), strip(0.125, &[1.0])].concat();
     let sim = simulation(0.0625, [points, vec![]], vec![]);
-    assert!(close(front(&sim, &mut Vec::new()).depth * 0.125 * THICKNESS, BODIES[0].1));
+    assert!(close(front(&sim, None, &mut Vec::new()).depth * 0.125 * THICKNESS, BODIES[0].1));
     // What is ahead of the front has no depth.
     let mut points = strip(0.0, &[1.0; 200]);
     points.extend(strip(-1.0, &[1.0, 1.0]));
     let sim = simulation(0.02, [points, vec![]], vec![]);
-    let depth = front(&sim, &mut Vec::new()).depth;
+    let depth = front(&sim, None, &mut Vec::new()).depth;
     assert!(close(depth * 0.04 * THICKNESS, 200.0 * BODIES[0].1));
     // On a coarse grid one strip is left, wider than 0.1 m.
     let points = [strip(0.0, &[1.0]), strip(0.3, &[1.0])].concat();
     let sim = simulation(0.2, [points, vec![]], vec![]);
-    assert!(close(front(&sim, &mut Vec::new()).depth * 0.4 * THICKNESS, 2.0 * BODIES[0].1));
+    assert!(close(front(&sim, None, &mut Vec::new()).depth * 0.4 * THICKNESS, 2.0 * BODIES[0].1));
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn stations_measure_volume_and_mean_velocity() {
     ];
     let heavy = vec![point(1.0, 0.1, [7.0, 0.0], 1.1)];
     let sim = simulation(0.25, [light, heavy], vec![]);
-    let read = stations(&sim, &[1.0, 10.0]);
+    let read = stations(&sim, None, &[1.0, 10.0]);
     let volume = BODIES[0].1 * (1.0 + 1.5) + BODIES[1].1 * 1.1;
     assert!(close(read[0].0, volume / (0.5 * THICKNESS)), "{read:?}");
     assert!(close(read[0].1, (1.0 + 2.0 + 2.0 * 7.0) / 4.0), "{read:?}");
@@ -196,9 +196,9 @@ fn window_speeds_are_mean_and_ninety_fifth_percentile() {
     });
     let sim = simulation(0.1, [inside.collect(), vec![point(5.0, 0.5, [1e3, 0.0], 1.0)]], vec![]);
     let mut scratch = vec![77.0];
-    let (mean, high) = window_speed(&sim, &Window { x: [0.0, 1.0], y: [0.0, 1.0] }, &mut scratch);
+    let (mean, high) = window_speed(&sim, None, &Window { x: [0.0, 1.0], y: [0.0, 1.0] }, &mut scratch);
     assert!(close(mean, 10.0) && close(high, 19.0), "{mean} {high}");
-    assert_eq!(window_speed(&sim, &Window { x: [8.0, 9.0], y: [0.0, 1.0] }, &mut scratch), (0.0, 0.0));
+    assert_eq!(window_speed(&sim, None, &Window { x: [8.0, 9.0], y: [0.0, 1.0] }, &mut scratch), (0.0, 0.0));
 }
 
 #[test]
@@ -208,7 +208,7 @@ fn field_gives_the_mean_velocity_and_fill_of_each_cell() {
         vec![point(0.6, 0.6, [3.0, 0.0], 1.0), point(-0.1, 0.7, [5.0, 6.0], 1.0), point(0.7, -0.2, [7.0, 8.0], 9.0)];
     let heavy = vec![point(0.7, 0.7, [0.0, 3.0], 1.2)];
     let sim = simulation(0.25, [light, heavy], vec![]);
-    let field = velocity_field(&sim);
+    let field = velocity_field(&sim, None);
     let cell_volume = 0.0625 * THICKNESS;
     let expected = [
         ([-0.125, 0.625], BODIES[0].1, [5.0, 6.0]),

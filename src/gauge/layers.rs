@@ -16,8 +16,7 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
     let h = simulation.spacing();
     let (nx, ny) = (b.normal.x, b.normal.y);
     let reach = LAYERS[2] as f64 * h;
-    // (bin, distance from the face, compression x volume, point spacing)
-    let mut near: Vec<(usize, f64, f64, f64)> = Vec::new();
+    let mut near: Vec<Near> = Vec::new();
     for (index, p) in simulation.particles() {
         let (d, s) = b.face_coordinates(p.x);
         if d < -h || d > reach || s < 0.0 || s > b.height() {
@@ -26,23 +25,46 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
         let body = &simulation.bodies()[index];
         let t = &p.state.stress;
         let normal_stress = nx * nx * t.xx + ny * ny * t.yy + 2.0 * nx * ny * t.xy;
-        near.push(((s / h) as usize, d, -normal_stress * body.point_volume * p.volume_ratio, body.point_spacing));
+        near.push(Near {
+            bin: (s / h) as usize,
+            distance: d,
+            compression_volume: -normal_stress * body.point_volume * p.volume_ratio,
+            spacing: body.point_spacing,
+        });
     }
-    let bins = near.iter().map(|n| n.0 + 1).max().unwrap_or(0);
+    sum(&near, h)
+}
+
+/// A point near a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Near {
+    /// Which cell along the face.
+    pub bin: usize,
+    /// Distance from the face, m.
+    pub distance: f64,
+    /// Compressive stress against the face times volume, Pa m3.
+    pub compression_volume: f64,
+    /// Distance between points, m.
+    pub spacing: f64,
+}
+
+/// Force (N) from the nearest 1, 2 and 3 layers of these points; `h` is the cell size, m.
+pub(super) fn sum(near: &[Near], h: f64) -> [f64; 3] {
+    let bins = near.iter().map(|n| n.bin + 1).max().unwrap_or(0);
     let mut nearest = vec![f64::INFINITY; bins];
-    for &(bin, d, ..) in &near {
-        nearest[bin] = nearest[bin].min(d);
+    for n in near {
+        nearest[n.bin] = nearest[n.bin].min(n.distance);
     }
     let mut force = [0.0; 3];
-    for (bin, d, compression_volume, spacing) in near {
-        let first = nearest[bin];
+    for n in near {
+        let first = nearest[n.bin];
         if first > h {
             continue;
         }
-        for (k, &layers) in LAYERS.iter().enumerate() {
-            let thickness = layers as f64 * spacing;
-            if d < first - 0.5 * spacing + thickness {
-                force[k] += compression_volume / thickness;
+        for (force, &layers) in force.iter_mut().zip(&LAYERS) {
+            let thickness = layers as f64 * n.spacing;
+            if n.distance < first - 0.5 * n.spacing + thickness {
+                *force += n.compression_volume / thickness;
             }
         }
     }

@@ -1,6 +1,8 @@
 //! Gauges: what one would install on the flume. They read the simulation and never touch it.
 //!
-//! - [`BarrierGauge`]: force, moment and pressure on a boundary from the impulses at the grid nodes, every step.
+//! - [`BarrierGauge`]: force, moment and pressure on a boundary, or on a body in contact, from the impulses at the grid nodes,
+//!   every step.
+//! - [`StructureGauge`]: a barrier that is a body: its clamp, its inertia, how it bends, whether it tears, the material beside it.
 //! - [`layers`]: the same force from the stress of the nearest material points.
 //! - [`ReactionGauge`]: force and moment on a clamp, or between bodies.
 //! - [`penetration`]: how deep material lies inside a structure.
@@ -11,6 +13,8 @@ pub mod flow;
 pub mod layers;
 pub mod penetration;
 mod reaction;
+pub mod structure;
 
-pub use barrier::{BarrierGauge, ForceSample, Peak};
+pub use barrier::{BarrierGauge, ForceSample, Peak, contact_impulse};
 pub use reaction::{Reaction, ReactionGauge};
+pub use structure::{StructureGauge, StructureSample};

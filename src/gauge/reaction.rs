@@ -69,6 +69,11 @@ impl ReactionGauge {
         reaction
     }
 
+    /// Length of the interval so far, s.
+    pub fn sampled_duration(&self) -> f64 {
+        self.duration
+    }
+
     /// Impulse since the start, N s.
     pub fn total_impulse(&self) -> [f64; 2] {
         self.total

@@ -66,6 +66,8 @@ impl Ledger {
 pub struct Stock {
     /// Mass, kg.
     pub mass: f64,
+    /// The part of it that gravity acts on, kg.
+    pub heavy: f64,
     /// Momentum, N s.
     pub momentum: [f64; 2],
     /// Kinetic energy, J.

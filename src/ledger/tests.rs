@@ -45,8 +45,9 @@ fn impulse_is_what_all_agents_gave_less_what_left() {
 #[test]
 fn energy_is_booked_once_each_with_dissipation_positive() {
     let p = |k: i32| 2f64.powi(k);
-    let opening = Stock { mass: 9e9, momentum: [9e9; 2], kinetic: p(30), gravitational: p(31), elastic: p(32) };
-    let now = Stock { mass: 8e9, momentum: [8e9; 2], kinetic: p(27), gravitational: p(28), elastic: p(29) };
+    let opening =
+        Stock { mass: 9e9, heavy: 9e9, momentum: [9e9; 2], kinetic: p(30), gravitational: p(31), elastic: p(32) };
+    let now = Stock { mass: 8e9, heavy: 8e9, momentum: [8e9; 2], kinetic: p(27), gravitational: p(28), elastic: p(29) };
     let datum = [p(33), p(34)];
     let b = EnergyBalance::new(&ledger(), &opening, &now, datum);
     assert_eq!(b.kinetic, p(27));

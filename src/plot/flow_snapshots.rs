@@ -40,6 +40,21 @@ pub fn draw(
     inclination_deg: f64,
     out_svg: impl AsRef<Path>,
 ) -> Result<(), PlotError> {
+    draw_with_barrier(field_csv, geometry_csv, None, inclination_deg, out_svg)
+}
+
+/// The same with a barrier that moves: `barrier_csv` holds its outline at the times of the cells, `time_s` and `x_m`, `y_m` of
+/// its points in order.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_with_barrier(
+    field_csv: impl AsRef<Path>,
+    geometry_csv: impl AsRef<Path>,
+    barrier_csv: Option<&Path>,
+    inclination_deg: f64,
+    out_svg: impl AsRef<Path>,
+) -> Result<(), PlotError> {
     if !inclination_deg.is_finite() {
         return Err(PlotError::Argument(format!(
             "the inclination of {inclination_deg} degrees is not a finite number"
@@ -58,9 +73,11 @@ pub fn draw(
     }
     let shown: Vec<usize> = panels.iter().flat_map(|(_, rows)| rows.iter().copied()).collect();
     let outlines = outlines(&Table::load(geometry_csv)?)?;
+    let barriers = barrier_csv.map_or_else(|| Ok(Vec::new()), |csv| moving(&Table::load(csv)?))?;
 
     let turn = Turn::new(inclination_deg);
-    let corners = shown.iter().map(|k| [x[*k], y[*k]]).chain(outlines.iter().flatten().copied());
+    let fixed = outlines.iter().chain(barriers.iter().map(|(_, outline)| outline)).flatten().copied();
+    let corners = shown.iter().map(|k| [x[*k], y[*k]]).chain(fixed);
     let extent = Extent::around(corners.map(|point| turn.apply(point)));
     let cell = spacing(shown.iter().map(|k| x[*k]))
         .or_else(|| spacing(shown.iter().map(|k| y[*k])))
@@ -88,7 +105,8 @@ pub fn draw(
                 let quad = run.corners(lap).map(|[i, j]| spot([base[0] + i * cell, base[1] + j * cell]));
                 fill(canvas, quad.to_vec(), &colour(run.level))?;
             }
-            for outline in &outlines {
+            let moved = barriers.iter().filter(|(at, _)| at == time).map(|(_, outline)| outline);
+            for outline in outlines.iter().chain(moved) {
                 wall(canvas, outline.iter().map(|point| spot(*point)).collect())?;
             }
             let at = (units(origin.0), units(origin.1 - 0.5 * TITLE_PX));
@@ -128,6 +146,13 @@ fn outlines(table: &Table) -> Result<Vec<Vec<Point>>, PlotError> {
     let rows: Vec<usize> = (0..table.rows()).filter(|k| x[*k].is_finite() && y[*k].is_finite()).collect();
     let groups = rows.chunk_by(|a, b| boundary[*a] == boundary[*b]);
     Ok(groups.map(|rows| rows.iter().map(|k| [x[*k], y[*k]]).collect()).collect())
+}
+
+/// Outlines of a barrier by time.
+fn moving(table: &Table) -> Result<Vec<(f64, Vec<Point>)>, PlotError> {
+    let (x, y) = (table.column("x_m")?, table.column("y_m")?);
+    let groups = by_time(table)?.into_iter();
+    Ok(groups.map(|(time, rows)| (time, rows.iter().map(|k| [x[*k], y[*k]]).collect())).collect())
 }
 
 /// Smallest distance between different values; `None` if there are no two.

@@ -33,7 +33,7 @@ impl ReferenceLine {
 }
 
 /// Colours of the reference lines, in turn.
-const REFERENCES: [RGBColor; 5] = [VERMILION, GREEN, PURPLE, SKY, GREY];
+const REFERENCES: [RGBColor; 6] = [VERMILION, GREEN, PURPLE, SKY, GREY, INK];
 /// Width at which the name of a reference line is wrapped (px).
 const WRAP_PX: f64 = 170.0;
 const HEIGHT_PX: i32 = 480;

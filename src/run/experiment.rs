@@ -4,7 +4,8 @@ use super::ProgressFn;
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
 use super::scene;
 use crate::case::Case;
-use crate::gauge::{BarrierGauge, flow, layers};
+use crate::gauge::structure::ProfilePoint;
+use crate::gauge::{BarrierGauge, StructureGauge, flow, layers};
 use crate::output::OutputError;
 use crate::plot::PlotError;
 use crate::simulation::{Simulation, StepFailure};
@@ -113,6 +114,8 @@ impl From<StepFailure> for RunError {
 /// Facts of the stages before the release, and of the stepping.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct StageFacts {
+    /// Material points at release.
+    pub particles: usize,
     /// Time spent settling and tilting, s.
     pub settle_time: f64,
     /// Steps spent settling and tilting.
@@ -135,6 +138,9 @@ pub struct Experiment {
     case: Case,
     simulation: Simulation,
     barrier: Option<BarrierGauge>,
+    /// The same barrier, if it is a body.
+    structure: Option<StructureGauge>,
+    peak: PeakProfile,
     base: Option<usize>,
     base_impulse: [f64; 2],
     facts: StageFacts,
@@ -148,12 +154,18 @@ impl Experiment {
     pub fn new(case: &Case) -> Self {
         let simulation = Simulation::new(scene::build(case));
         let find = |name: &Option<String>| name.as_ref().and_then(|n| simulation.boundary_index(n));
-        let barrier = find(&case.gauges.barrier).map(|b| BarrierGauge::new(&simulation, b));
+        let structure = case.gauges.barrier.as_ref().and_then(|name| structure(case, &simulation, name));
+        let barrier = match &structure {
+            Some(s) => Some(BarrierGauge::on_body(&simulation, s.body(), s.face().clone())),
+            None => find(&case.gauges.barrier).map(|b| BarrierGauge::new(&simulation, b)),
+        };
         let base = find(&case.gauges.base);
         Self {
             case: case.clone(),
             simulation,
             barrier,
+            structure,
+            peak: PeakProfile::default(),
             base,
             base_impulse: [0.0; 2],
             facts: StageFacts::default(),
@@ -171,6 +183,21 @@ impl Experiment {
     /// The gauge on the barrier.
     pub fn barrier(&self) -> Option<&BarrierGauge> {
         self.barrier.as_ref()
+    }
+
+    /// The gauge on a barrier that is a body.
+    pub fn structure(&self) -> Option<&StructureGauge> {
+        self.structure.as_ref()
+    }
+
+    /// How a barrier that is a body was bent when the mean force of a sample was largest.
+    pub fn peak_profile(&self) -> &PeakProfile {
+        &self.peak
+    }
+
+    /// Index of the body that is the barrier: what is said of the flow leaves it out.
+    fn barrier_body(&self) -> Option<usize> {
+        self.structure.as_ref().map(StructureGauge::body)
     }
 
     /// Index of the base.
@@ -195,7 +222,7 @@ impl Experiment {
 
     /// Level at which gravitational energy is zero: the barrier's foot, else the origin.
     pub fn datum(&self) -> [f64; 2] {
-        self.barrier.as_ref().map_or([0.0; 2], |g| self.simulation.boundaries()[g.boundary()].foot().into())
+        self.barrier.as_ref().map_or([0.0; 2], |g| g.face(&self.simulation).foot().into())
     }
 
     /// All stages.
@@ -260,11 +287,7 @@ impl Experiment {
         if !sim.steps().is_multiple_of(STEPS_PER_LOOK) {
             return;
         }
-        let force = self.barrier.as_ref().map_or(0.0, |g| {
-            let b = &sim.boundaries()[g.boundary()];
-            let t = &sim.step_tallies()[g.boundary()];
-            (t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y) / sim.time_step().dt
-        });
+        let force = self.barrier.as_ref().map_or(0.0, |g| g.step_force(sim));
         let (time, steps, particles) = (sim.time() - start, sim.steps(), sim.particle_count());
         let go_on = progress(&Progress { stage, time, end, steps, particles, force, residual });
         self.stopped |= !go_on;
@@ -274,9 +297,13 @@ impl Experiment {
     pub fn release(&mut self) -> &Simulation {
         self.facts.settle_time = self.simulation.time();
         self.facts.settle_steps = self.simulation.steps();
+        self.facts.particles = self.simulation.particle_count();
         self.simulation.set_time(0.0);
         self.simulation.open_ledger();
         self.simulation.release_gates();
+        if let Some(structure) = &mut self.structure {
+            structure.open(&self.simulation);
+        }
         &self.simulation
     }
 
@@ -294,7 +321,7 @@ impl Experiment {
         loop {
             let time = self.simulation.time();
             while fields.next_if(|t| time >= *t).is_some() {
-                recorder.field(time, &flow::velocity_field(&self.simulation))?;
+                self.record_field(time, recorder)?;
             }
             if frames > 0.0 && time >= frame as f64 * frames {
                 recorder.frame(&self.simulation)?;
@@ -304,7 +331,7 @@ impl Experiment {
             if time >= run.end_time_s || self.stopped || (run.stop_at_rest && rest.at_rest) {
                 self.facts.end_time = time;
                 if fields.peek().is_some() {
-                    recorder.field(time, &flow::velocity_field(&self.simulation))?;
+                    self.record_field(time, recorder)?;
                 }
                 return Ok(match () {
                     () if self.stopped => End::Stopped,
@@ -316,9 +343,10 @@ impl Experiment {
             self.read_step();
             if self.simulation.time() >= (samples + 1) as f64 * interval {
                 samples = (self.simulation.time() / interval) as u64;
-                let row = self.sample();
+                let row = self.sample(recorder)?;
                 recorder.history(&row)?;
-                let stock = self.simulation.stock();
+                let barrier = self.barrier_body();
+                let stock = self.simulation.stock_of(|b| Some(b) != barrier);
                 let weight = stock.mass * self.case.gravity.magnitude_m_per_s2;
                 rest.watch(&row, stock.momentum, interval, released, weight);
                 if samples.is_multiple_of(SAMPLES_PER_LEDGER) {
@@ -342,6 +370,9 @@ impl Experiment {
         if let Some(gauge) = &mut self.barrier {
             gauge.after_step(sim);
         }
+        if let Some(gauge) = &mut self.structure {
+            gauge.after_step(sim);
+        }
         if let Some(base) = self.base {
             let (b, t) = (&sim.boundaries()[base], &sim.step_tallies()[base]);
             self.base_impulse[0] += t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y;
@@ -349,13 +380,14 @@ impl Experiment {
         }
     }
 
-    fn sample(&mut self) -> HistoryRow {
+    fn sample(&mut self, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
         let sim = &self.simulation;
+        let barrier = self.barrier_body();
         let mut row = HistoryRow {
             time: sim.time(),
-            kinetic: sim.stock().kinetic,
+            kinetic: sim.stock_of(|b| Some(b) != barrier).kinetic,
             time_step: sim.time_step().dt,
-            front: flow::front(sim, &mut self.scratch_front),
+            front: flow::front(sim, barrier, &mut self.scratch_front),
             penetration: flow::penetration(sim).0,
             ..HistoryRow::default()
         };
@@ -365,21 +397,34 @@ impl Experiment {
             row.tangential = force.tangential;
             row.moment = force.moment;
             row.normal_max = force.normal_max;
-            row.layers = layers::normal_force(sim, gauge.boundary());
-            let wall = flow::wall_state(sim, gauge.boundary());
-            row.run_up = wall.run_up;
-            row.overtopped = wall.overtopped;
+            if let Some(boundary) = gauge.boundary() {
+                row.layers = layers::normal_force(sim, boundary);
+                let wall = flow::wall_state(sim, boundary);
+                row.run_up = wall.run_up;
+                row.overtopped = wall.overtopped;
+            }
             if self.base.is_some() && force.duration > 0.0 {
                 row.base_normal = self.base_impulse[0] / force.duration;
                 row.base_friction = self.base_impulse[1] / force.duration;
                 self.base_impulse = [0.0; 2];
             }
         }
+        if let Some(gauge) = &mut self.structure {
+            let sample = gauge.sample(sim);
+            row.layers = sample.survey.layers;
+            row.run_up = sample.survey.run_up;
+            row.overtopped = sample.survey.overtopped;
+            row.penetration = row.penetration.max(sample.survey.penetration);
+            if row.normal > self.peak.force {
+                self.peak = PeakProfile { force: row.normal, time: row.time, points: gauge.profile() };
+            }
+            recorder.structure(row.time, &sample)?;
+        }
         if let (Some(x), Some(y)) = (self.case.gauges.window_x_m, self.case.gauges.window_y_m) {
-            let speed = flow::window_speed(sim, &flow::Window { x, y }, &mut self.scratch_speed);
+            let speed = flow::window_speed(sim, barrier, &flow::Window { x, y }, &mut self.scratch_speed);
             row.window_speed = [speed.0, speed.1];
         }
-        row
+        Ok(row)
     }
 
     fn record_ledgers(&mut self, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
@@ -390,20 +435,47 @@ impl Experiment {
         recorder.momentum(&MomentumRow::new(sim.time(), sim.ledger(), sim.opening(), &now))?;
         let at = &self.case.gauges.stations_m;
         if !at.is_empty() {
-            let rows = flow::stations(sim, at);
+            let rows = flow::stations(sim, self.barrier_body(), at);
             let rows: Vec<_> = at.iter().zip(rows).map(|(&x, (depth, velocity))| (x, depth, velocity)).collect();
             recorder.stations(sim.time(), &rows)?;
         }
         Ok(())
     }
 
+    fn record_field(&self, time: f64, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
+        recorder.field(time, &flow::velocity_field(&self.simulation, self.barrier_body()))?;
+        self.structure.as_ref().map_or(Ok(()), |s| recorder.outline(time, &s.outline()))
+    }
+
     fn record_profile(&mut self, time: f64, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
         let thickness = self.simulation.thickness();
+        if let Some(gauge) = self.structure.as_ref().filter(|_| time > 0.0) {
+            recorder.bending(time, &gauge.profile())?;
+        }
         match &mut self.barrier {
             Some(gauge) if time > 0.0 => recorder.profile(time, &gauge.profile(thickness)),
             _ => Ok(()),
         }
     }
+}
+
+/// How a barrier was bent at its largest force.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PeakProfile {
+    /// Mean normal force of the sample, N.
+    pub force: f64,
+    /// End of the sample, s.
+    pub time: f64,
+    /// The points of its face.
+    pub points: Vec<ProfilePoint>,
+}
+
+/// The gauge on the body of this name; `None` if a boundary has it.
+fn structure(case: &Case, simulation: &Simulation, name: &str) -> Option<StructureGauge> {
+    let (body, face) = (scene::index(case, name)?, scene::barrier_face(case, name)?);
+    let b = &case.bodies[body];
+    let counts = b.particle_counts(case.particle_spacing_m()).map(|n| n as usize);
+    Some(StructureGauge::new(simulation, body, face, counts, b.rotation_deg.to_radians()))
 }
 
 /// Decides whether the material is at rest: little kinetic energy, balanced forces, and a force that no longer changes.

@@ -6,12 +6,15 @@
 
 use super::ProgressFn;
 use super::experiment::{Experiment, RunError};
-use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records, STRUCTURE_COLUMNS, structure_values};
 use super::summary::Summary;
 use crate::boundary::{Boundary, Solid};
 use crate::case::Case;
+use crate::gauge::StructureSample;
 use crate::gauge::flow::FieldCell;
+use crate::gauge::structure::ProfilePoint;
 use crate::output::{self, Field, OutputError, Polyline, PvdWriter, Table, TableWriter, Values};
+use crate::plot::curves::{Curve, Curves};
 use crate::plot::{self, PlotError, force_time::ReferenceLine};
 use crate::simulation::Simulation;
 use std::fs;
@@ -67,7 +70,8 @@ pub fn run_into(
         Ok(end) => Summary::new(case, &experiment, &folder.records, *end),
         Err(error) => Summary::failed(case, &experiment, &folder.records, &error.to_string()),
     };
-    let written = output::write_text(directory.join("summary.toml"), &summary.to_toml());
+    let written = output::write_text(directory.join("summary.toml"), &summary.to_toml())
+        .and_then(|()| write_peak_profile(directory, &experiment));
     let drawn = draw_figures(case, directory, &summary);
     // The first thing that went wrong is reported: what follows from it would only hide it.
     end?;
@@ -92,13 +96,22 @@ pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<
     let profile = || plot::pressure_profile::draw(at("pressure_profile.csv"), at("pressure_profile.svg"));
     let energy = || plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg"));
     let inclination = case.gravity.inclination_deg;
-    let flow =
-        || plot::flow_snapshots::draw(at("field.csv"), at("geometry.csv"), inclination, at("flow_snapshots.svg"));
+    let outline = at("barrier_outline.csv");
+    let bends = outline.exists();
+    let flow = || {
+        let (field, geometry, out) = (at("field.csv"), at("geometry.csv"), at("flow_snapshots.svg"));
+        plot::flow_snapshots::draw_with_barrier(field, geometry, bends.then_some(&*outline), inclination, out)
+    };
+    let clamp = || plot::curves::draw(at("barrier.csv"), &BARRIER_FORCES, at("barrier_forces.svg"));
+    let bent = || plot::curves::draw(at(PEAK_PROFILE), &PEAK_DEFLECTION, at("barrier_deflection.svg"));
 
     let barrier = case.gauges.barrier.is_some();
     let fields = !case.gauges.field_times_s.is_empty();
     type Draw<'a> = &'a dyn Fn() -> Result<(), PlotError>;
-    let figures: [(bool, &str, Draw); 4] = [
+    let body = summary.structure.is_some();
+    let figures: [(bool, &str, Draw); 6] = [
+        (body, "barrier.csv", &clamp),
+        (body && at(PEAK_PROFILE).exists(), PEAK_PROFILE, &bent),
         (barrier, "history.csv", &force),
         (barrier, "pressure_profile.csv", &profile),
         (summary.energy.initial_j > 0.0, "energy.csv", &energy),
@@ -110,6 +123,45 @@ pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<
     results.into_iter().collect()
 }
 
+/// The table of how a barrier was bent at its largest force.
+const PEAK_PROFILE: &str = "barrier_profile_at_peak.csv";
+
+/// Force on a barrier that is a body: what contact gives, what the clamp takes, what is left as momentum.
+const BARRIER_FORCES: Curves = Curves {
+    x: "time_s",
+    x_title: "time (s)",
+    y_title: "force against the face (N)",
+    curves: &[
+        Curve { column: "contact_normal_n", label: "contact with the flow", exact: false },
+        Curve { column: "clamp_normal_n", label: "clamp", exact: false },
+        Curve { column: "inertia_normal_n", label: "rate of momentum", exact: false },
+    ],
+    ..Curves::LINEAR
+};
+
+/// Its face, bent.
+const PEAK_DEFLECTION: Curves = Curves {
+    x: "deflection_m",
+    x_title: "deflection at the largest force (m)",
+    y_title: "height above the foot (m)",
+    curves: &[Curve { column: "height_m", label: "", exact: false }],
+    ..Curves::LINEAR
+};
+
+/// Columns of the tables of a bent barrier, through time and at its largest force.
+const BENDING_COLUMNS: [&str; 4] = ["time_s", "height_m", "deflection_m", "velocity_m_per_s"];
+
+/// How a barrier that is a body was bent at its largest force.
+fn write_peak_profile(directory: &Path, experiment: &Experiment) -> Result<(), OutputError> {
+    let peak = experiment.peak_profile();
+    if peak.points.is_empty() {
+        return Ok(());
+    }
+    let mut table = TableWriter::create(directory.join(PEAK_PROFILE), &BENDING_COLUMNS)?;
+    peak.points.iter().try_for_each(|p| table.row(&[peak.time, p.height, p.deflection, p.velocity]))?;
+    table.finish().map(|_| ())
+}
+
 /// The open tables of a run.
 struct Folder {
     directory: PathBuf,
@@ -119,6 +171,9 @@ struct Folder {
     stations: Option<TableWriter>,
     profile: Option<TableWriter>,
     field: Option<TableWriter>,
+    structure: Option<TableWriter>,
+    bending: Option<TableWriter>,
+    outline: Option<TableWriter>,
     frames: Option<PvdWriter>,
     frame_count: usize,
     records: Records,
@@ -137,6 +192,7 @@ impl Folder {
         let optional =
             |wanted: bool, name: &str, columns: &[&str]| wanted.then(|| table(name, &fixed(columns))).transpose();
         let has_barrier = experiment.barrier().is_some();
+        let bends = experiment.structure().is_some();
         let frames = if experiment.vtk_interval() > 0.0 {
             let frames = directory.join("vtk");
             fs::create_dir_all(&frames).map_err(|source| OutputError::Create { path: frames, source })?;
@@ -170,6 +226,13 @@ impl Folder {
                     "speed_m_per_s",
                 ],
             )?,
+            structure: optional(bends, "barrier.csv", &STRUCTURE_COLUMNS)?,
+            bending: optional(bends, "barrier_profile.csv", &BENDING_COLUMNS)?,
+            outline: optional(
+                bends && !gauges.field_times_s.is_empty(),
+                "barrier_outline.csv",
+                &["time_s", "x_m", "y_m"],
+            )?,
             frames,
             frame_count: 0,
             records: Records::default(),
@@ -178,7 +241,15 @@ impl Folder {
 
     fn close(&mut self) -> Result<(), OutputError> {
         let always = [&mut self.history, &mut self.energy, &mut self.momentum];
-        let optional = [&mut self.stations, &mut self.profile, &mut self.field].into_iter().flatten();
+        let tables = [
+            &mut self.stations,
+            &mut self.profile,
+            &mut self.field,
+            &mut self.structure,
+            &mut self.bending,
+            &mut self.outline,
+        ];
+        let optional = tables.into_iter().flatten();
         // All of them, also when one fails.
         let results: Vec<_> = always.into_iter().chain(optional).map(TableWriter::flush).collect();
         results.into_iter().collect()
@@ -227,6 +298,22 @@ impl Recorder for Folder {
     fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {
         let Some(table) = &mut self.profile else { return Ok(()) };
         rows.iter().try_for_each(|&(height, pressure)| table.row(&[time, height, pressure]))
+    }
+
+    fn structure(&mut self, time: f64, sample: &StructureSample) -> Result<(), OutputError> {
+        self.records.structure(time, sample)?;
+        let Some(table) = &mut self.structure else { return Ok(()) };
+        table.row(&structure_values(time, sample))
+    }
+
+    fn bending(&mut self, time: f64, rows: &[ProfilePoint]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.bending else { return Ok(()) };
+        rows.iter().try_for_each(|p| table.row(&[time, p.height, p.deflection, p.velocity]))
+    }
+
+    fn outline(&mut self, time: f64, points: &[[f64; 2]]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.outline else { return Ok(()) };
+        points.iter().try_for_each(|x| table.row(&[time, x[0], x[1]]))
     }
 
     fn field(&mut self, time: f64, cells: &[FieldCell]) -> Result<(), OutputError> {

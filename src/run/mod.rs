@@ -7,6 +7,7 @@ mod experiment;
 pub mod files;
 pub mod records;
 pub mod scene;
+pub mod structure;
 pub mod summary;
 
 pub use experiment::{Experiment, Progress, RunError, Stage};

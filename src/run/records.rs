@@ -1,6 +1,8 @@
 //! What is recorded during a run.
 
+use crate::gauge::StructureSample;
 use crate::gauge::flow::FieldCell;
+use crate::gauge::structure::ProfilePoint;
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::output::OutputError;
 use crate::simulation::Simulation;
@@ -92,6 +94,52 @@ impl HistoryRow {
     }
 }
 
+/// Column names of the table of a barrier that is a body.
+pub const STRUCTURE_COLUMNS: [&str; 18] = [
+    "time_s",
+    "contact_normal_n",
+    "contact_tangential_n",
+    "clamp_normal_n",
+    "clamp_tangential_n",
+    "clamp_moment_n_m",
+    "inertia_normal_n",
+    "inertia_tangential_n",
+    "imbalance",
+    "tip_deflection_m",
+    "tip_velocity_m_per_s",
+    "largest_deflection_m",
+    "largest_deflection_height_m",
+    "penetration_m",
+    "gap_cells",
+    "gap_height_m",
+    "run_up_m",
+    "overtopped_kg",
+];
+
+/// The values, parallel to [`STRUCTURE_COLUMNS`].
+pub fn structure_values(time: f64, s: &StructureSample) -> [f64; 18] {
+    [
+        time,
+        s.contact.normal,
+        s.contact.tangential,
+        s.clamp.normal,
+        s.clamp.tangential,
+        s.clamp_moment,
+        s.inertia.normal,
+        s.inertia.tangential,
+        s.imbalance,
+        s.bend.tip,
+        s.bend.tip_velocity,
+        s.bend.largest,
+        s.bend.largest_at,
+        s.survey.penetration,
+        s.bend.gap,
+        s.bend.gap_at,
+        s.survey.run_up,
+        s.survey.overtopped,
+    ]
+}
+
 /// Momentum by agent at one moment, N s.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MomentumRow {
@@ -145,6 +193,18 @@ pub trait Recorder {
     fn profile(&mut self, _time: f64, _rows: &[(f64, f64)]) -> Result<(), OutputError> {
         Ok(())
     }
+    /// A sample of a barrier that is a body.
+    fn structure(&mut self, _time: f64, _sample: &StructureSample) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// How such a barrier is bent.
+    fn bending(&mut self, _time: f64, _rows: &[ProfilePoint]) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// Its surface at a snapshot: points in order, m.
+    fn outline(&mut self, _time: f64, _points: &[[f64; 2]]) -> Result<(), OutputError> {
+        Ok(())
+    }
     /// Velocity field at a snapshot.
     fn field(&mut self, _time: f64, _cells: &[FieldCell]) -> Result<(), OutputError> {
         Ok(())
@@ -164,6 +224,8 @@ pub struct Records {
     pub energy: Vec<EnergyRow>,
     /// Momentum ledger.
     pub momentum: Vec<MomentumRow>,
+    /// Samples of a barrier that is a body, with their times (s).
+    pub structure: Vec<(f64, StructureSample)>,
 }
 
 impl Recorder for Records {
@@ -179,6 +241,11 @@ impl Recorder for Records {
 
     fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError> {
         self.momentum.push(row.clone());
+        Ok(())
+    }
+
+    fn structure(&mut self, time: f64, sample: &StructureSample) -> Result<(), OutputError> {
+        self.structure.push((time, *sample));
         Ok(())
     }
 }

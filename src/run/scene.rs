@@ -56,6 +56,7 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
         point_volume: volume,
         points_per_direction: f64::from(case.grid.particles_per_cell).sqrt().round() as usize,
         point_spacing: spacing,
+        weightless: b.weightless,
     };
     (body, particles)
 }
@@ -90,6 +91,29 @@ fn law(material: &case::Material) -> AnyLaw {
             dp.void_tracking,
         )),
     }
+}
+
+/// Where the face of a body that is a barrier stands at the start, as a wall that nothing touches: on the side of the bodies with
+/// which it is in contact, from where its highest clamp holds it (else from its lower edge) along its own y axis.
+pub fn barrier_face(case: &Case, name: &str) -> Option<Boundary> {
+    let body = case.bodies.iter().find(|b| b.name == name)?;
+    let [length, height] = body.size_m();
+    let (across, up) = (direction(body.rotation_deg), direction(body.rotation_deg + 90.0));
+    let centre = |b: &case::Body| b.corners_m().map(Vector2::from).iter().sum::<Vector2<f64>>() / 4.0;
+    let partner = |b: &&case::Body| {
+        b.name != name && case.contacts.iter().any(|c| c.bodies.contains(&b.name) && c.bodies.iter().any(|n| n == name))
+    };
+    let beside: f64 = case.bodies.iter().filter(partner).map(|b| (centre(b) - centre(body)).dot(&across)).sum();
+    let corner = Vector2::new(body.x_m[0], body.y_m[0]) + across * if beside > 0.0 { length } else { 0.0 };
+    let clamps = case.boundaries.iter().filter(|b| b.acts_on(name) && b.contact == case::ContactKind::Bonded);
+    let held = clamps.filter_map(|b| {
+        let case::Shape::Plane { point_m, normal_deg } = b.shape(&case.grid)? else { return None };
+        let n = direction(normal_deg);
+        Some((Vector2::from(point_m) - corner).dot(&n) / up.dot(&n))
+    });
+    let foot = held.filter(|s| (0.0..height).contains(s)).fold(0.0, f64::max);
+    let wall = Boundary::wall(name, corner + up * foot, up, height - foot, length, Friction::Smooth);
+    Some(if beside > 0.0 { wall.facing_right() } else { wall })
 }
 
 /// `None` only for a boundary that validation refuses.
@@ -149,7 +173,7 @@ fn contact(case: &Case, c: &case::BodyContact) -> Option<ContactRule> {
 }
 
 /// Index of the body of this name.
-fn index(case: &Case, name: &str) -> Option<usize> {
+pub fn index(case: &Case, name: &str) -> Option<usize> {
     case.bodies.iter().position(|b| b.name == name)
 }
 

@@ -2,6 +2,7 @@
 
 use super::experiment::{End, Experiment};
 use super::records::{HistoryRow, MomentumRow, Records};
+use super::structure::{self, StructureResults};
 use crate::boundary::Friction;
 use crate::case::Case;
 use serde::Serialize;
@@ -31,6 +32,9 @@ pub struct Summary {
     /// Forces on the barrier.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barrier: Option<BarrierResults>,
+    /// How a barrier that is a body took it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub structure: Option<StructureResults>,
     /// Equilibrium of the deposit at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deposit: Option<DepositResults>,
@@ -176,7 +180,7 @@ pub struct MomentumResults {
     pub closure_max: f64,
     /// Mass that left the domain, kg.
     pub outflow_kg: f64,
-    /// Deepest that any point lay inside a boundary, m.
+    /// Deepest that any point lay inside a boundary, or inside a barrier that is a body, m.
     pub penetration_max_m: f64,
 }
 
@@ -224,6 +228,7 @@ impl Summary {
             warnings: Vec::new(),
             stepping: stepping(experiment),
             barrier: barrier(experiment, records),
+            structure: structure::results(experiment, records),
             deposit: deposit(experiment, records),
             energy: energy(records),
             momentum: momentum(records),
@@ -255,7 +260,10 @@ impl Summary {
             warn(format!("momentum does not close: {:.1e} of all impulses", self.momentum.closure_max));
         }
         if self.momentum.penetration_max_m > h {
-            warn(format!("material lay {:.1} cells deep inside a boundary", self.momentum.penetration_max_m / h));
+            warn(format!(
+                "material lay {:.1} cells deep inside a boundary or the barrier",
+                self.momentum.penetration_max_m / h
+            ));
         }
         if self.momentum.outflow_kg > 0.0 {
             warn(format!("{:.4} kg left the domain", self.momentum.outflow_kg));
@@ -267,6 +275,9 @@ impl Summary {
             if b.arrival_time_s.is_none() {
                 warn("the flow did not reach the barrier".into());
             }
+        }
+        if let Some(s) = &self.structure {
+            s.warn(&mut warn);
         }
         if let Some(d) = &self.deposit
             && d.mobilised_share.abs() < 0.9
@@ -286,7 +297,7 @@ fn stepping(experiment: &Experiment) -> Stepping {
     let (sim, facts) = (experiment.simulation(), experiment.facts());
     let opening = sim.opening();
     Stepping {
-        particles: (opening.mass / sim.bodies().first().map_or(1.0, |b| b.point_mass)).round() as usize,
+        particles: facts.particles,
         mass_kg: opening.mass,
         settle_time_s: facts.settle_time,
         settle_steps: facts.settle_steps,
@@ -381,19 +392,32 @@ fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults>
     let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
     let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
     // What lies behind the barrier rests on the base, too, but does not push.
-    let gone = sim.ledger().departed_behind[experiment.barrier()?.boundary()];
-    let mass = sim.mass() - (last.overtopped - gone);
+    let mass = match experiment.barrier()?.boundary() {
+        Some(barrier) => sim.mass() - (last.overtopped - sim.ledger().departed_behind[barrier]),
+        None => {
+            let body = experiment.structure()?.body();
+            sim.mass() - sim.stock_of(|b| b == body).mass - (last.overtopped - sim.ledger().departed_mass)
+        }
+    };
     let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
     let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
     let weight = mass * along;
     let limit = mu * base_normal;
-    // What the other boundaries take, from the ledger: the barrier, and whatever else the deposit leans on.
+    // What the other boundaries and bodies take, from the ledger: the barrier, and whatever else the deposit leans on. What clamps
+    // do to a barrier that is a body is no concern of the deposit.
     let end = records.momentum.last()?;
     let start = records.momentum.iter().find(|r| r.time >= end.time - STATIC_WINDOW)?;
     let base_index = experiment.base()?;
+    let structure = experiment.structure().map(crate::gauge::StructureGauge::body);
+    let own = |b: usize| b == base_index || structure.is_some_and(|s| sim.boundaries()[b].bodies == [s]);
     let push = |row: &MomentumRow| -> f64 {
-        let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| *b != base_index);
-        others.map(|(_, t)| t.impulse[0] * base.tangent.x + t.impulse[1] * base.tangent.y).sum()
+        let along = |p: [f64; 2]| p[0] * base.tangent.x + p[1] * base.tangent.y;
+        let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| !own(*b));
+        let contacts = row.ledger.contacts.iter().zip(sim.contacts()).map(|(tally, rule)| {
+            let sign = rule.bodies.map(|b| f64::from(u8::from(Some(b) == structure)));
+            (sign[0] - sign[1]) * along(tally.exchange.impulse)
+        });
+        others.map(|(_, t)| along(t.impulse)).sum::<f64>() + contacts.sum::<f64>()
     };
     let held = -(push(end) - push(start)) / (end.time - start.time).max(f64::MIN_POSITIVE);
     Some(DepositResults {

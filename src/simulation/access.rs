@@ -115,6 +115,41 @@ impl Simulation {
         self.fields.iter().flat_map(VelocityField::particles)
     }
 
+    /// The points of one body, by its index, in a fixed order that changes with sorting.
+    pub fn points_of(&self, body: usize) -> impl Iterator<Item = Particle> {
+        let fields = self.fields.iter().filter(move |f| f.members.contains(&body));
+        fields.flat_map(VelocityField::particles).filter_map(move |(b, p)| (b == body).then_some(p))
+    }
+
+    /// What each boundary did in the last step to the bodies that share a velocity field with `body`, parallel to the
+    /// boundaries. A body in contact has a field of its own.
+    pub fn step_tallies_of(&self, body: usize) -> impl Iterator<Item = Tally> {
+        let field = self.fields.iter().find(|f| f.members.contains(&body));
+        (0..self.boundaries.len()).map(move |k| {
+            let mut sum = Tally::default();
+            field.iter().flat_map(|f| &f.bands).for_each(|band| sum.add(&band.tallies[k]));
+            sum
+        })
+    }
+
+    /// Impulse (N s) in the last step of what acts throughout the bodies that share a velocity field with `body`: gravity,
+    /// damping, side walls.
+    pub fn distributed_impulse_of(&self, body: usize) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for field in self.fields.iter().filter(|f| f.members.contains(&body)) {
+            for band in &field.bands {
+                let heavy = band.points.iter().zip(&field.bodies).filter(|(_, b)| !b.weightless);
+                let mass: f64 = heavy.map(|(points, b)| points.len() as f64 * b.point_mass).sum();
+                let d = &band.distributed;
+                for (k, sum) in sum.iter_mut().enumerate() {
+                    *sum += mass * self.forces.gravity[k] * self.time_step.dt;
+                    *sum += d.damping.impulse[k] + d.side_walls.impulse[k] + d.field.impulse[k];
+                }
+            }
+        }
+        sum
+    }
+
     /// Number of material points.
     pub fn particle_count(&self) -> usize {
         self.bands().map(Band::len).sum()
@@ -186,11 +221,13 @@ impl Simulation {
         for (body, p) in self.particles().filter(|(body, _)| chosen(*body)) {
             let body = &self.bodies[body];
             let m = body.point_mass;
+            let heavy = if body.weightless { 0.0 } else { m };
             s.mass += m;
+            s.heavy += heavy;
             s.momentum[0] += m * p.v[0];
             s.momentum[1] += m * p.v[1];
             s.kinetic += 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
-            s.gravitational += m * potential(&self.forces.gravity, &p.x);
+            s.gravitational += heavy * potential(&self.forces.gravity, &p.x);
             s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         }
         s
@@ -199,6 +236,6 @@ impl Simulation {
     /// Energy by mechanism since the ledger was opened, with gravitational energy counted from the level of `datum` (m).
     pub fn energy_balance(&self, now: &Stock, datum: [f64; 2]) -> EnergyBalance {
         let level = potential(&self.forces.gravity, &datum);
-        EnergyBalance::new(&self.ledger, &self.opening, now, [self.opening.mass * level, now.mass * level])
+        EnergyBalance::new(&self.ledger, &self.opening, now, [self.opening.heavy * level, now.heavy * level])
     }
 }

@@ -40,6 +40,8 @@ pub struct Simulation {
     forces: BodyForces,
     field: Option<AccelerationField>,
     mass: f64,
+    /// The part of it that gravity acts on, kg.
+    heavy: f64,
 
     fields: Vec<VelocityField>,
     coupling: Coupling,
@@ -56,10 +58,12 @@ pub struct Simulation {
 impl Simulation {
     /// Takes over a scene.
     pub fn new(scene: Scene) -> Self {
-        let (mut fields, mut bodies, mut mass) = (Vec::new(), Vec::new(), 0.0);
+        let (mut fields, mut bodies, mut mass, mut heavy) = (Vec::new(), Vec::new(), 0.0, 0.0);
         let mut common = None;
         for (index, (body, particles)) in scene.bodies.into_iter().enumerate() {
-            mass += body.point_mass * particles.len() as f64;
+            let own = body.point_mass * particles.len() as f64;
+            mass += own;
+            heavy += if body.weightless { 0.0 } else { own };
             // Bodies in contact have a velocity field each, all others share one.
             let alone = scene.contacts.iter().any(|c| c.bodies.contains(&index));
             let field = match common {
@@ -85,6 +89,7 @@ impl Simulation {
             forces: BodyForces { gravity: scene.gravity, damping: 0.0 },
             field: None,
             mass,
+            heavy,
             speeds: vec![0.0; bodies.len()],
             step_tallies: vec![Tally::default(); boundaries.len()],
             ledger: Ledger::new(boundaries.len(), scene.contacts.len()),
@@ -174,7 +179,7 @@ impl Simulation {
             ledger.impulse_scale += tally.exchange.impulse[0].abs() + tally.exchange.impulse[1].abs();
         }
         for d in 0..2 {
-            let impulse = self.mass * self.forces.gravity[d] * dt;
+            let impulse = self.heavy * self.forces.gravity[d] * dt;
             ledger.gravity[d] += impulse;
             ledger.impulse_scale += impulse.abs();
         }
@@ -233,12 +238,15 @@ impl Simulation {
         let m = body.point_mass;
         let elastic = body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         self.mass -= m;
+        let heavy = if body.weightless { 0.0 } else { m };
+        self.heavy -= heavy;
         let ledger = &mut self.ledger;
         ledger.departed_mass += m;
         for (behind, b) in ledger.departed_behind.iter_mut().zip(&self.boundaries) {
             *behind += if b.face_coordinates(p.x).0 < 0.0 { m } else { 0.0 };
         }
-        ledger.departed_energy += 0.5 * m * p.speed() * p.speed() + elastic + m * potential(&self.forces.gravity, &p.x);
+        ledger.departed_energy +=
+            0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(&self.forces.gravity, &p.x);
         // The elastic energy leaves the stock without being dissipated.
         ledger.internal_work -= elastic;
         for d in 0..2 {

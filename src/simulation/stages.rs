@@ -73,13 +73,15 @@ impl Simulation {
     /// The step of `dt` seconds that begins now for one velocity field, and the bands to do it on.
     pub(super) fn begin(&mut self, field: usize, dt: f64) -> (Step<'_>, &mut [Band]) {
         let VelocityField { bodies, bands, grid, .. } = &mut self.fields[field];
+        let weightless = bodies.iter().all(|b| b.weightless);
+        let gravity = if weightless { [0.0; 2] } else { self.forces.gravity };
         let scheme = self.numerics.scheme;
         let step = Step {
             grid,
             bodies,
             boundaries: &self.boundaries,
             shape: self.numerics.shape,
-            forces: self.forces,
+            forces: BodyForces { gravity, ..self.forces },
             field: self.field.as_ref(),
             side_friction: self.side_friction,
             time: self.time,

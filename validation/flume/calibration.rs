@@ -81,6 +81,12 @@ pub fn targets(case: &str, repetitions: &[Run]) -> Vec<Target> {
         .collect()
 }
 
+/// Label of the set that fits both angles best on fine cells; empty if none came to rest at both.
+pub fn best(refined: &[Run], repetitions: &[Run]) -> String {
+    let targets = ANGLES.map(|case| targets(case, repetitions));
+    members(refined, &targets).first().map_or_else(String::new, |m| m.label.to_string())
+}
+
 /// One set of inputs, run at both angles.
 struct Member<'a> {
     label: &'a str,
@@ -249,4 +255,72 @@ fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
         curves::draw(table, what, folder.join(&name)).map(|()| name)
     };
     drawn.into_iter().map(draw).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::parse;
+
+    /// Targets that ask for a force of 10 N at 40 and 20 N at 23 degrees, both to 1 N.
+    fn wanted() -> [Vec<Target>; 2] {
+        [10.0, 20.0].map(|value| {
+            let datum = compare::published("40deg").remove(0).0;
+            let of: fn(&dyn Fn(&str) -> f64) -> f64 = |q| q("static_force_n");
+            vec![Target { datum: Datum { value, uncertainty: 0.6, ..datum }, of, numerical: 0.8 }]
+        })
+    }
+
+    fn set(label: &str, forces: [f64; 2], speed: f64) -> [Run; 2] {
+        [0, 1].map(|k| {
+            let mut run = Run::with(ANGLES[k], "sample", label, &[("static_force_n", forces[k])]);
+            run.set.extend(RANGES.map(|c| (c.to_string(), speed.to_string())));
+            run.set.extend(CHOICES.map(|c| (c.to_string(), if speed < 2.0 { "a" } else { "b" }.to_string())));
+            run
+        })
+    }
+
+    #[test]
+    fn sets_are_ordered_by_both_angles_and_the_front_keeps_what_is_not_beaten() {
+        let mut runs: Vec<Run> = [
+            set("both", [11.0, 21.0], 1.0),
+            set("steep", [10.0, 23.0], 2.0),
+            set("beaten", [12.0, 22.0], 3.0),
+            set("gentle", [14.0, 20.0], 4.0),
+            set("restless", [10.0, 20.0], 5.0),
+        ]
+        .concat();
+        runs[8].ended = "end time".into();
+        let members = members(&runs, &wanted());
+        assert_eq!(members.iter().map(|m| m.label).collect::<Vec<_>>(), ["both", "beaten", "steep", "gentle"]);
+        assert!((members[2].misfit[1] - 9.0).abs() < 1e-12 && (members[0].both() - 1.0).abs() < 1e-12);
+        let front = front(&members);
+        let sets: Vec<&str> = front.lines().skip(1).filter_map(|l| l.split(',').next()).collect();
+        assert_eq!(sets, ["steep", "both", "gentle"]);
+        let profiles = profiles(&members);
+        assert!(profiles.contains("container,a,,1,1,1,1\n"), "{profiles}");
+        assert!(profiles.contains("cone,b,,0,0,4,3\n"), "{profiles}");
+    }
+
+    /// The set that was found stands in the case files, and nowhere else anything was changed.
+    #[test]
+    fn the_calibrated_cases_are_the_best_set() {
+        let read = |record: &Record, columns: &[&str]| {
+            runs::rows(&Table::parse(record.runs, record.name).expect("a record"), columns).expect("a record")
+        };
+        let best = best(&read(&REFINED, &[]), &read(&baseline::RECORD, &["cell_m"]));
+        let (_, plan) = REFINED.plan().expect("a study");
+        for (name, text) in
+            [("40deg", include_str!("40deg_calibrated.toml")), ("23deg", include_str!("23deg_calibrated.toml"))]
+        {
+            let mut planned =
+                plan.iter().find(|r| r.case_name == name && r.label == best).expect("the set").case.clone();
+            let frozen = parse(text, name).expect("a case").case;
+            // What is written, and how far the run may go, is no input of the model.
+            planned.title.clone_from(&frozen.title);
+            planned.output.clone_from(&frozen.output);
+            planned.gauges.clone_from(&frozen.gauges);
+            assert_eq!(frozen, planned, "{name}");
+        }
+    }
 }

@@ -49,8 +49,8 @@ fn references(flume: &Flume) -> String {
         add("granular jump of no length, our front at 0.7 m", jump::force(rho, u, h, width, gravity), 0.0);
     }
     for (datum, _) in compare::published(flume.name) {
-        if datum.quantity == "largest measured force" || datum.quantity == "static force" && flume.name == "23deg" {
-            add(&format!("paper, {}", datum.kind), datum.value, datum.uncertainty);
+        if ["largest measured force", "static force"].contains(&datum.quantity.as_str()) {
+            add(&format!("paper, {}: {}", datum.kind, datum.quantity), datum.value, datum.uncertainty);
         }
     }
     text

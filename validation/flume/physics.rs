@@ -12,7 +12,7 @@ pub fn checks(flume: &Flume) -> Vec<Check> {
     let Flume { name, experiment, records, summary } = flume;
     let case = &summary.case;
     let (Some(barrier), Some(deposit), Some(gauge), Some(last)) =
-        (&summary.barrier, &summary.deposit, experiment.barrier(), records.momentum.last())
+        (&summary.barrier, &summary.deposit, experiment.barrier().and_then(|g| g.boundary()), records.momentum.last())
     else {
         let none = Check::value(format!("{name}: barrier and base are measured"), 0.0, 1.0, "1");
         return vec![none.because("there is nothing to judge otherwise").from(Kind::Conservation, "case file")];
@@ -51,7 +51,6 @@ pub fn checks(flume: &Flume) -> Vec<Check> {
     ];
 
     // Samples are means over their intervals, so they must add up to the impulse in the momentum ledger.
-    let gauge = gauge.boundary();
     let boundary = &experiment.simulation().boundaries()[gauge];
     let [px, py] = last.ledger.boundaries[gauge].impulse;
     let ledger = boundary.normal.x * px + boundary.normal.y * py;

@@ -51,3 +51,20 @@ pub fn rows(table: &Table, columns: &[&str]) -> Result<Vec<Run>, OutputError> {
     };
     Ok((0..table.rows()).map(run).collect())
 }
+
+#[cfg(test)]
+impl Run {
+    /// A run at rest with these quantities.
+    pub fn with(case: &str, factor: &str, label: &str, numbers: &[(&'static str, f64)]) -> Self {
+        let text = str::to_string;
+        Self {
+            case: text(case),
+            factor: text(factor),
+            label: text(label),
+            replicate: text("0"),
+            ended: text("at rest"),
+            set: BTreeMap::new(),
+            numbers: numbers.iter().copied().collect(),
+        }
+    }
+}

@@ -82,13 +82,14 @@ fn sentence(error: f64, u: &Uncertainty) -> &'static str {
     }
 }
 
-fn run(context: &mut Context) -> Result<Outcome, Failure> {
+fn run(_: &mut Context) -> Result<Outcome, Failure> {
     let read = |record: &crate::validation::record::Record, columns: &[&str]| -> Result<Vec<Run>, Failure> {
         Ok(runs::rows(&Table::parse(record.runs, record.name)?, columns)?)
     };
     let repetitions = read(&baseline::RECORD, &["cell_m"])?;
     let changed = read(&sensitivity::RECORD, &[])?;
     let refined = read(&calibration::REFINED, &[])?;
+    let best = calibration::best(&refined, &repetitions);
     let mut outcome = Outcome::default();
     let mut text = String::from(
         "reading,case,quantity,unit,kind,published,checkdam,error,u_num,u_input,u_data,u_val,error_over_2_u_val,largest_input,verdict\n",
@@ -105,7 +106,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
                 let ours = if reading == "literal" {
                     numerical.scatter[1].mean
                 } else {
-                    refined.iter().find(|r| r.case == case && r.factor == FROZEN).map_or(f64::NAN, value)
+                    refined.iter().find(|r| r.case == case && r.label == best).map_or(f64::NAN, value)
                 };
                 let (input, largest) = input(&changed, case, &value);
                 // A calibrated input is no longer open; what remains of its uncertainty is not known, and not claimed.
@@ -137,12 +138,8 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     }
     outcome.tables.push(("flume_verdict_table".into(), text));
     outcome.tables.push(("flume_verdict_bias".into(), bias(&logs)));
-    let _ = context;
     Ok(outcome)
 }
-
-/// The set that stands in the calibrated case files, as the refined study names it.
-pub const FROZEN: &str = "frozen";
 
 /// Mean and scatter of ours over published, as factors (geometric), over all quantities of a reading.
 fn bias(logs: &[(&str, f64)]) -> String {
@@ -153,4 +150,45 @@ fn bias(logs: &[(&str, f64)]) -> String {
         text += &format!("{reading},{},{}\n", numbers.join(","), s.count);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_may_be_said() {
+        let u = Uncertainty { numerical: 3.0, input: 12.0, data: 4.0 };
+        assert_eq!(u.validation(), 13.0);
+        assert!(sentence(-10.0, &u).starts_with("agrees"));
+        assert!(sentence(10.1, &u).starts_with("not resolved") && sentence(-26.0, &u).starts_with("not resolved"));
+        assert!(sentence(26.1, &u).starts_with("disagrees") && sentence(f64::NAN, &u).starts_with("disagrees"));
+    }
+
+    #[test]
+    fn inputs_add_up_by_their_squares() {
+        let run =
+            |factor: &str, label: &str, force: f64| Run::with("40deg", factor, label, &[("static_force_n", force)]);
+        let mut runs = vec![
+            run("base", "", 100.0),
+            run("gate", "slow", 94.0),
+            run("gate", "slower", 88.0),
+            run("cone", "plane strain", 108.0),
+            run("cell size", "0.02 m", 500.0),
+        ];
+        let (total, largest) = input(&runs, "40deg", &|r| r.get("static_force_n"));
+        assert!((total - (6.0f64.powi(2) + 4.0f64.powi(2)).sqrt() / 3f64.sqrt()).abs() < 1e-12);
+        assert_eq!(largest, "gate");
+        // What did not come to rest says nothing.
+        runs[2].ended = "end time".into();
+        assert!(input(&runs, "40deg", &|r| r.get("static_force_n")).0 < total);
+        assert_eq!(even(3f64.sqrt()), 1.0);
+    }
+
+    #[test]
+    fn bias_is_a_factor() {
+        let logs = [("literal", libm::log(2.0)), ("literal", libm::log(8.0)), ("calibrated", 0.0)];
+        let text = bias(&logs);
+        assert!(text.contains("literal,4,"), "{text}");
+    }
 }

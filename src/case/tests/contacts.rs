@@ -94,6 +94,41 @@ fn what_is_wrong_with_a_contact_is_said() {
 }
 
 #[test]
+fn a_barrier_may_be_a_body_in_a_contact() {
+    let gauge = |name: &str, text: &str| {
+        let from = text.find("barrier = \"barrier\"").expect("a gauge");
+        let (before, after) = text.split_at(from);
+        format!("{before}{}", after.replacen("barrier = \"barrier\"", &format!("barrier = \"{name}\""), 1))
+    };
+    let loaded = parse(&gauge("fence", &with(CONTACT)), "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(loaded.case.gauges.barrier.as_deref(), Some("fence"));
+    for (text, parts) in [
+        (gauge("fense", &with(CONTACT)), vec!["gauges.barrier = \"fense\"", "or of a body in [[contacts]]", "fence"]),
+        (gauge("fence", &with("")), vec!["gauges.barrier = \"fence\"", "add [[contacts]] with `fence`"]),
+        (
+            gauge("gate", &with(CONTACT).replace("\"fence\"", "\"gate\"")),
+            vec!["gauges.barrier = \"gate\"", "both have this name"],
+        ),
+    ] {
+        let report = report_of(&text);
+        println!("{report}");
+        for part in parts {
+            assert!(report.contains(part), "no {part:?} in\n{report}");
+        }
+    }
+}
+
+#[test]
+fn only_a_body_in_a_contact_can_be_weightless() {
+    let light = |contact: &str| {
+        with(contact).replacen("material = \"plastic\"", "material = \"plastic\"\nweightless = true", 1)
+    };
+    assert!(parse(&light(CONTACT), "fence.toml").expect("valid").case.bodies[1].weightless);
+    let report = report_of(&light(""));
+    assert!(report.contains("bodies[1].weightless = true") && report.contains("[[contacts]]"), "{report}");
+}
+
+#[test]
 fn no_body_may_be_forgotten() {
     let third = BARRIER
         .split("[[boundaries]]")

@@ -36,6 +36,11 @@ impl Checker<'_> {
                 self.not_allowed(&at.key("material"), &body.material, "the name of one of [materials.NAME]", &fix);
             }
             self.mass(&at, body);
+            if body.weightless && !self.case.contacts.iter().any(|c| c.bodies.contains(&body.name)) {
+                let allowed = "true only for a body in [[contacts]]: others share their motion on the grid";
+                let fix = "remove the line, or add [[contacts]] with this body";
+                self.not_allowed(&at.key("weightless"), &true, allowed, fix);
+            }
         }
         for (index, body) in self.case.bodies.iter().enumerate().filter(|(_, body)| has_geometry(body)) {
             let at = list.index(index);

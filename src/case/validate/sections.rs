@@ -81,14 +81,31 @@ impl Checker<'_> {
     fn gauges(&mut self) {
         let (gauges, domain) = (&self.case.gauges, &self.case.domain);
         let at = KeyPath::top("gauges");
-        for (key, name) in [("barrier", &gauges.barrier), ("base", &gauges.base)] {
-            let names = self.case.boundaries.iter().map(|boundary| boundary.name.as_str());
-            if let Some(name) = name
-                && !names.clone().any(|other| other == name)
-            {
-                let fix = did_you_mean(name, names);
-                self.not_allowed(&at.key(key), name, "the name of one of [[boundaries]]", &fix);
+        let boundaries = || self.case.boundaries.iter().map(|boundary| boundary.name.as_str());
+        let bodies = || self.case.bodies.iter().map(|body| body.name.as_str());
+        let mut wrong = Vec::new();
+        if let Some(name) = &gauges.base
+            && !boundaries().any(|other| other == name)
+        {
+            wrong.push(("base", name, "the name of one of [[boundaries]]", did_you_mean(name, boundaries())));
+        }
+        if let Some(name) = &gauges.barrier {
+            let (rigid, body) = (boundaries().any(|b| b == name), bodies().any(|b| b == name));
+            let allowed = "the name of one of [[boundaries]], or of a body in [[contacts]]";
+            if !rigid && !body {
+                let fix = did_you_mean(name, boundaries().chain(bodies()));
+                wrong.push(("barrier", name, allowed, fix));
+            } else if rigid && body {
+                let fix = "rename the boundary or the body: both have this name".to_owned();
+                wrong.push(("barrier", name, allowed, fix));
+            } else if body && !self.case.contacts.iter().any(|c| c.bodies.contains(name)) {
+                let fix =
+                    format!("add [[contacts]] with `{name}`: what sticks to other bodies has no force to measure");
+                wrong.push(("barrier", name, allowed, fix));
             }
+        }
+        for (key, name, allowed, fix) in wrong {
+            self.not_allowed(&at.key(key), name, allowed, &fix);
         }
         self.positive(&at.key("sample_rate_hz"), gauges.sample_rate_hz, 1000.0);
         for (index, &station) in gauges.stations_m.iter().enumerate() {

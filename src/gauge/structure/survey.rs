@@ -1,0 +1,75 @@
+//! The material beside a barrier that bends: how high, how deep inside, what went over, and the force from its stress.
+
+use super::StructureGauge;
+use crate::contact::outline::Nearest;
+use crate::gauge::flow::flowing;
+use crate::gauge::layers::{self, LAYERS, Near};
+use crate::simulation::Simulation;
+use nalgebra::Vector2;
+
+/// What is seen of the material beside a barrier. Distances are from its surface as it is now, heights from its foot along its
+/// face at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Survey {
+    /// Force against the face from the stress of the nearest 1, 2, 3 layers of points, N.
+    pub layers: [f64; 3],
+    /// Highest point within 1.5 cells of the face, m.
+    pub run_up: f64,
+    /// Mass behind the barrier, there or already out of the domain, kg.
+    pub overtopped: f64,
+    /// Deepest that a point's domain lies inside the barrier, m.
+    pub penetration: f64,
+}
+
+impl StructureGauge {
+    pub(super) fn survey(&self, simulation: &Simulation) -> Survey {
+        let h = simulation.spacing();
+        let (n, reach) = (self.face.normal, LAYERS[2] as f64 * h);
+        let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        for place in self.points.iter().flatten() {
+            let (d, s) = self.face.face_coordinates(place.x);
+            for ([low, high], x) in bounds.iter_mut().zip([d, s]) {
+                (*low, *high) = (low.min(x - reach), high.max(x + reach));
+            }
+        }
+        let mut found = Survey { overtopped: simulation.ledger().departed_mass, ..Survey::default() };
+        let mut near = Vec::new();
+        for (index, p) in flowing(simulation, Some(self.body)) {
+            let (d, s) = self.face.face_coordinates(p.x);
+            let body = &simulation.bodies()[index];
+            if d < bounds[0][0] {
+                found.overtopped += body.point_mass;
+            }
+            let beside = d >= bounds[0][0] && d <= bounds[0][1] && s >= bounds[1][0] && s <= bounds[1][1];
+            let Some(to) = beside.then(|| self.nearest(p.x)).flatten() else { continue };
+            let out = Vector2::from(to.normal);
+            found.penetration = found.penetration.max(0.5 * body.point_spacing - to.distance);
+            if out.dot(&n) < -0.5 {
+                found.overtopped += body.point_mass;
+                continue;
+            }
+            if to.distance <= 1.5 * h {
+                found.run_up = found.run_up.max(s);
+            }
+            let at = self.face.face_coordinates(to.foot).1;
+            if at < 0.0 || out.dot(&n) < 0.5 || to.distance < -h || to.distance > reach {
+                continue;
+            }
+            let t = &p.state.stress;
+            let traction = Vector2::new(t.xx * out.x + t.xy * out.y, t.xy * out.x + t.yy * out.y);
+            near.push(Near {
+                bin: (at / h) as usize,
+                distance: to.distance,
+                compression_volume: -traction.dot(&n) * body.point_volume * p.volume_ratio,
+                spacing: body.point_spacing,
+            });
+        }
+        found.layers = layers::sum(&near, h);
+        found
+    }
+
+    fn nearest(&self, x: [f64; 2]) -> Option<Nearest> {
+        let all = self.surfaces.iter().filter_map(|s| s.nearest(x));
+        all.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    }
+}

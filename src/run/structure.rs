@@ -1,0 +1,108 @@
+//! What a run says of a barrier that is a body.
+
+use super::experiment::Experiment;
+use super::records::Records;
+use crate::gauge::StructureSample;
+use serde::Serialize;
+
+/// Length of the means behind "final" values, s.
+const FINAL_WINDOW: f64 = 0.3;
+/// Gap between neighbouring points, in cells, from which a barrier counts as torn: half their distance at the start, with four
+/// points a cell.
+const TORN: f64 = 0.25;
+/// Share of the forces that contact, clamp and inertia may miss each other by.
+const BALANCED: f64 = 1e-9;
+
+/// A barrier that is a body: how it bends, what its clamp carries, whether it holds together.
+#[derive(Debug, Clone, Serialize)]
+pub struct StructureResults {
+    /// Height of the face above the foot, m.
+    pub height_m: f64,
+    /// Largest deflection of the tip away from the material at any time, m.
+    pub tip_deflection_max_m: f64,
+    /// Largest deflection anywhere on the face when the mean force of a sample was largest, m.
+    pub deflection_at_peak_m: f64,
+    /// Its height above the foot, m.
+    pub deflection_at_peak_height_m: f64,
+    /// Largest velocity away from the material anywhere on the face at that time, m/s.
+    pub velocity_at_peak_m_per_s: f64,
+    /// Mean deflection of the tip over the last 0.3 s, m.
+    pub tip_deflection_final_m: f64,
+    /// The same over the height.
+    pub tip_deflection_final_share: f64,
+    /// Largest force on the clamp in a single step, N.
+    pub peak_clamp_force_step_n: f64,
+    /// Its time, s.
+    pub peak_clamp_force_step_time_s: f64,
+    /// Mean force on the clamp against the face over the last 0.3 s, N.
+    pub clamp_normal_final_n: f64,
+    /// Mean moment about the foot on the clamp over the last 0.3 s, N m.
+    pub clamp_moment_final_n_m: f64,
+    /// Largest magnitude, over all samples, of contact force less clamp reaction and rate of momentum, over the sum of theirs.
+    pub imbalance_max: f64,
+    /// Deepest that the domain of a point of the flow lay inside the barrier, m.
+    pub penetration_max_m: f64,
+    /// Widest gap between neighbouring points of the barrier beyond what its stretch explains, cells.
+    pub gap_max_cells: f64,
+    /// When, s.
+    pub gap_max_time_s: f64,
+    /// Where, as height above the foot at the start, m.
+    pub gap_max_height_m: f64,
+    /// Whether the barrier has torn: a gap of a quarter of a cell or more. What is read after that means nothing.
+    pub torn: bool,
+}
+
+pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<StructureResults> {
+    let gauge = experiment.structure()?;
+    let samples = &records.structure;
+    let end = samples.last()?.0;
+    let mean = |value: fn(&StructureSample) -> f64| {
+        let late = samples.iter().filter(|(time, _)| *time > end - FINAL_WINDOW);
+        let (sum, count) = late.fold((0.0, 0.0), |(s, n), (_, r)| (s + value(r), n + 1.0));
+        sum / count
+    };
+    let largest = |value: fn(&StructureSample) -> f64| samples.iter().map(|(_, s)| value(s)).fold(0.0, f64::max);
+    let peak = &experiment.peak_profile().points;
+    let bent = peak.iter().fold((0.0, 0.0), |a, p| if p.deflection > a.0 { (p.deflection, p.height) } else { a });
+    let widest = samples.iter().fold(&samples[0], |a, b| if b.1.bend.gap > a.1.bend.gap { b } else { a });
+    let clamp = gauge.peak_clamp_force();
+    let tip = mean(|s| s.bend.tip);
+    let height = gauge.face().height();
+    Some(StructureResults {
+        height_m: height,
+        tip_deflection_max_m: largest(|s| s.bend.tip),
+        deflection_at_peak_m: bent.0,
+        deflection_at_peak_height_m: bent.1,
+        velocity_at_peak_m_per_s: peak.iter().map(|p| p.velocity).fold(0.0, f64::max),
+        tip_deflection_final_m: tip,
+        tip_deflection_final_share: tip / height,
+        peak_clamp_force_step_n: clamp.value,
+        peak_clamp_force_step_time_s: clamp.time,
+        clamp_normal_final_n: mean(|s| s.clamp.normal),
+        clamp_moment_final_n_m: mean(|s| s.clamp_moment),
+        imbalance_max: largest(|s| s.imbalance),
+        penetration_max_m: largest(|s| s.survey.penetration),
+        gap_max_cells: widest.1.bend.gap,
+        gap_max_time_s: widest.0,
+        gap_max_height_m: widest.1.bend.gap_at,
+        torn: widest.1.bend.gap >= TORN,
+    })
+}
+
+impl StructureResults {
+    pub(super) fn warn(&self, warn: &mut impl FnMut(String)) {
+        if self.torn {
+            warn(format!(
+                "the barrier has torn numerically: {:.3} s after release its points were {:.2} cells too far apart {:.3} m above \
+                 its foot; forces and deflections after that mean nothing (finer cells, or a stiffer barrier)",
+                self.gap_max_time_s, self.gap_max_cells, self.gap_max_height_m
+            ));
+        }
+        if self.imbalance_max > BALANCED {
+            warn(format!(
+                "contact, clamp and inertia of the barrier miss each other by {:.1e} of their sum",
+                self.imbalance_max
+            ));
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! `checkdam check` and `checkdam run`.
+
+use crate::lab::{FIGURES, Lab, TABLES, TINY, changed};
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn bad_values_are_refused_with_their_line_and_a_fix() {
+    let cases: [(&str, &str, &[&str]); 16] = [
+        ("_m3 = 1500", "_m3 = -1500", &["density_kg_per_m3 = -1500", "use a positive value"]),
+        ("young_pa = 1.0e6", "young_pa = 0", &["young_pa = 0"]),
+        ("mass_kg = 24", "mass_kg = -24", &["mass_kg = -24"]),
+        ("mass_kg = 24", "mass_kg = 30", &["mass_kg = 30", "24"]),
+        ("spacing_m = 0.05", "spacing_m = 0", &["spacing_m = 0"]),
+        ("poisson = 0.3", "poisson = 0.5", &["poisson = 0.5"]),
+        ("angle_deg = 31", "angle_deg = 95", &["friction_angle_deg = 95"]),
+        ("young_pa = 1.0e6", "young_pa = nan", &["young_pa = nan", "finite"]),
+        ("end_time_s = 0.4", "end_time_s = inf", &["end_time_s = inf", "finite"]),
+        ("young_pa = 1.0e6", "yuong_pa = 1.0e6", &["yuong_pa", "young_pa"]),
+        ("poisson = 0.3", "poisson = \"soft\"", &["poisson", "soft"]),
+        ("foot_m = [0.3, 0.0]", "foot_m = [-0.1, 0.0]", &["body `sand` overlaps boundary `barrier`"]),
+        ("stations_m = [0.1, 0.2]", "stations_m = [0.1, 2.0]", &["stations_m[1] = 2", "inside the domain"]),
+        ("spacing_m = 0.05", "spacing_m = 1.75e-5", &["1.0e9 particles", "use spacing_m = "]),
+        ("end_time_s = 0.4", "end_time_s = 4.0e9", &["time steps"]),
+        ("[grid]", "[grid", &["grid"]),
+    ];
+    for (replace, by, expected) in cases {
+        let text = changed(replace, by);
+        let lab = Lab::new(&text);
+        lab.refuses("case.toml", "results", expected);
+        let err = lab.run(&["check", "case.toml"]).err;
+        let line = 1 + text[..text.find(by).unwrap()].matches('\n').count();
+        // What follows from the change may be told where it shows.
+        let followed = by.starts_with("foot_m");
+        assert!(followed || err.contains(&format!("--> case.toml:{line}:")), "not line {line} in\n{err}");
+        assert!(err.contains(" = fix: "), "no fix in\n{err}");
+    }
+}
+
+#[test]
+fn what_is_no_case_file_is_refused() {
+    let lab = Lab::new(TINY);
+    fs::create_dir(lab.path("folder")).unwrap();
+    fs::write(lab.path("garbage.toml"), [0x7f, b'E', b'L', b'F', 0, 1, 0xff, 0xfe, 0x80]).unwrap();
+    fs::write(lab.path("empty.toml"), "").unwrap();
+    lab.refuses("nothing.toml", "results", &["nothing.toml does not exist", "check the spelling"]);
+    lab.refuses("folder", "results", &["folder is a directory", "fix: "]);
+    lab.refuses("garbage.toml", "results", &["garbage.toml", "not text", "fix: "]);
+    lab.refuses("empty.toml", "results", &["empty.toml", "fix: "]);
+}
+
+#[test]
+fn folders_that_cannot_take_the_results_are_refused() {
+    let lab = Lab::new(TINY);
+    fs::create_dir(lab.path("full")).unwrap();
+    fs::write(lab.path("full/notes.txt"), "mine").unwrap();
+    lab.refuses("case.toml", "full", &["full exists and is not empty", "--out"]);
+    lab.refuses("case.toml", "case.toml", &["case.toml is a file", "--out"]);
+    lab.refuses("case.toml", "case.toml/results", &["cannot create case.toml/results", "--out"]);
+    if cfg!(target_os = "linux") {
+        lab.refuses("case.toml", "/proc/results", &["cannot create /proc/results", "--out"]);
+    }
+}
+
+#[test]
+fn a_check_tells_what_would_run() {
+    let lab = Lab::new(TINY);
+    for name in ["40deg", "23deg"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/flume/{name}.toml"));
+        let outcome = lab.run(&["check", path.to_str().unwrap()]);
+        assert_eq!(outcome.code, Some(0), "{outcome:?}");
+        let expected = [
+            "is valid",
+            "material points of",
+            "time step ",
+            "limited by",
+            "at most ",
+            " steps for",
+            "memory ",
+            "expected time",
+        ];
+        for text in expected {
+            assert!(outcome.out.contains(text), "no {text:?} in\n{}", outcome.out);
+        }
+    }
+    assert_eq!(lab.contents("").len(), 1, "a check writes nothing");
+}
+
+#[test]
+fn a_run_leaves_everything_it_promises() {
+    let lab = Lab::new(TINY);
+    let outcome = lab.run(&["run", "case.toml"]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    for text in ["Tiny flume: completed", "peak force", "energy:", "momentum closes", "results in out/case"] {
+        assert!(outcome.out.contains(text), "no {text:?} in\n{}", outcome.out);
+    }
+    let folder = lab.contents("out/case");
+    let frames: Vec<String> = (0..9).map(|k| format!("vtk/flow_{k:05}.vtp")).collect();
+    let others = ["summary.toml", "flow.pvd", "vtk/", "vtk/boundaries.vtp"];
+    let mut expected: Vec<&str> = TABLES.into_iter().chain(FIGURES).chain(others).collect();
+    expected.extend(frames.iter().map(String::as_str));
+    expected.sort_unstable();
+    assert_eq!(folder.keys().map(String::as_str).collect::<Vec<_>>(), expected);
+
+    let rows = lab.rows("out/case");
+    // Samples every millisecond, ledgers every tenth of them and at the start.
+    assert!((395..=400).contains(&rows["history.csv"]), "{rows:?}");
+    assert!((40..=41).contains(&rows["energy.csv"]) && rows["momentum.csv"] == rows["energy.csv"], "{rows:?}");
+    assert!(rows.values().all(|count| *count > 0), "{rows:?}");
+    for name in FIGURES {
+        let figure = lab.read(&format!("out/case/{name}"));
+        assert!(figure.starts_with("<svg ") && figure.trim_end().ends_with("</svg>"), "{name}");
+    }
+    let collection = lab.read("out/case/flow.pvd");
+    assert!(frames.iter().all(|frame| collection.contains(&format!("file=\"{frame}\""))), "{collection}");
+    assert!(lab.status("out/case").starts_with("completed"));
+
+    // A second run does not touch the results of the first.
+    assert_eq!(lab.run(&["run", "case.toml"]).code, Some(2));
+    assert!(folder == lab.contents("out/case"));
+}
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let lab = Lab::new(TINY);
+    for threads in ["1", "2", "3", "8"] {
+        let outcome = lab.run(&["run", "case.toml", "--out", threads, "--threads", threads]);
+        assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    }
+    let reference = lab.contents("1");
+    for threads in ["2", "3", "8"] {
+        for (name, bytes) in lab.contents(threads) {
+            assert!(reference.get(&name) == Some(&bytes), "{name} differs between 1 and {threads} threads");
+        }
+        assert_eq!(lab.contents(threads).len(), reference.len());
+    }
+}
+
+#[test]
+fn a_run_that_blows_up_says_where_and_why() {
+    let lab = Lab::new(&changed("velocity_m_per_s = [0.0, 0.0]", "velocity_m_per_s = [3000.0, 0.0]"));
+    let outcome = lab.run(&["run", "case.toml", "--out", "results"]);
+    assert_eq!(outcome.code, Some(3), "{outcome:?}");
+    let texts =
+        ["error: the simulation failed", "at t = ", "particle ", "of body `sand`", "at x = ", "was limited by", "cfl"];
+    for text in texts.into_iter().chain(["what was computed is in results"]) {
+        assert!(outcome.err.contains(text), "no {text:?} in\n{}", outcome.err);
+    }
+    let status = lab.status("results");
+    assert!(status.starts_with("failed: ") && status.contains("of body `sand`"), "{status}");
+    let rows = lab.rows("results");
+    assert!(rows["energy.csv"] > 0 && rows["field.csv"] > 0, "{rows:?}");
+    assert!(lab.path("results/flow_snapshots.svg").exists(), "what can be drawn is drawn");
+    assert!(lab.run(&["check", "case.toml"]).err.contains("a run would fail"));
+}
+
+#[test]
+fn a_body_that_does_not_settle_is_an_error() {
+    let settle = "[stages.settle]\ndamping_per_s = 1\nresidual = 1.0e-12\nmax_time_s = 0.05\n\n[stages.run]";
+    let lab = Lab::new(&changed("[stages.run]", settle));
+    let outcome = lab.run(&["run", "case.toml", "--out", "results"]);
+    assert_eq!(outcome.code, Some(3), "{outcome:?}");
+    for text in ["did not settle", "stages.settle.max_time_s"] {
+        assert!(outcome.err.contains(text), "no {text:?} in\n{}", outcome.err);
+    }
+    assert!(lab.status("results").starts_with("failed: "));
+}
