@@ -46,7 +46,7 @@ pub const REFINED: Record = Record {
 
 /// Numbers that are sampled, and into how many classes a profile divides them.
 const RANGES: [&str; 3] = ["gate_speed_m_per_s", "side_friction_1", "pic_rate_per_s"];
-const CLASSES: usize = 6;
+const CLASSES: usize = 4;
 /// Words that are sampled.
 const CHOICES: [&str; 2] = ["container", "cone"];
 /// Cases in the order of the tables.
