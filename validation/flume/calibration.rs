@@ -57,7 +57,7 @@ pub struct Target {
     /// The number.
     pub datum: Datum,
     /// Ours, from the quantities of a run.
-    pub of: fn(&dyn Fn(&str) -> f64) -> f64,
+    pub of: compare::Counterpart,
     /// Standard deviation of ours from numerical causes.
     pub numerical: f64,
 }
@@ -260,7 +260,7 @@ mod tests {
     fn wanted() -> [Vec<Target>; 2] {
         [10.0, 20.0].map(|value| {
             let datum = compare::published("40deg").remove(0).0;
-            let of: fn(&dyn Fn(&str) -> f64) -> f64 = |q| q("static_force_n");
+            let of: compare::Counterpart = |q| q("static_force_n");
             vec![Target { datum: Datum { value, uncertainty: 0.6, ..datum }, of, numerical: 0.8 }]
         })
     }
