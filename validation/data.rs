@@ -40,9 +40,10 @@ pub struct Datum {
 pub type Source = (&'static str, &'static str);
 
 /// All files.
-pub const SOURCES: [Source; 2] = [
+pub const SOURCES: [Source; 3] = [
     ("flume/published.csv", include_str!("flume/published.csv")),
     ("barrier/published.csv", include_str!("barrier/published.csv")),
+    super::column::SOURCE,
 ];
 
 /// The rows of a file.

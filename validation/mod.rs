@@ -6,7 +6,10 @@
 //! many runs are recorded in `runs/*.csv` of their folder; from the record, their analysis takes seconds, and
 //! [`Context::studies`] makes the record anew.
 
+pub mod column;
 pub mod data;
+#[cfg(test)]
+mod errata;
 pub mod flume;
 pub mod record;
 
@@ -95,6 +98,8 @@ pub const VALIDATIONS: &[Validation] = &[
     flume::sensitivity::VALIDATION,
     flume::calibration::VALIDATION,
     flume::verdict::VALIDATION,
+    column::LEVEL,
+    column::SLOPE,
 ];
 
 /// Writes tables and figures of an outcome into `folder`, which is created; returns their names.

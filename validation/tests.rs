@@ -53,7 +53,16 @@ macro_rules! validations {
     };
 }
 
-validations!(flume, flume_noise, flume_baseline, flume_sensitivity, flume_calibration, flume_verdict);
+validations!(
+    flume,
+    flume_noise,
+    flume_baseline,
+    flume_sensitivity,
+    flume_calibration,
+    flume_verdict,
+    column_level,
+    column_slope
+);
 
 /// A force that is 3 % wrong, and other faults of a few percent, fail.
 #[test]

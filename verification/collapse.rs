@@ -1,10 +1,12 @@
 //! Columns of sand that collapse in a channel, against the laws that two laboratories fitted to their experiments.
 //!
 //! The column rests between a smooth wall and a gate on a rough base; the gate vanishes. How far the front gets and what
-//! height is left depend on the aspect ratio a = h0/r0. The laws have no parameter for the
-//! grains. They scatter by 15 % around the laws. Ours slide in simple shear at 0.515, the slope of a cone that has 31 degrees
-//! in plane strain, not at the experiments' tan(31 degrees) = 0.60, which is worth 17 % of a run-out that goes with 1/mu;
-//! together 22.5 %. Heights of the two laboratories differ by up to 40 %; the band is between them, and 15 % around.
+//! height is left depend on the aspect ratio a = h0/r0. The laws have no parameter for the grains, but differ with them: sand, rice
+//! and sugar run 1.2 a (Lube et al.), glass beads, which come to rest at 22 degrees, 1.8 a (Lajeunesse et al.). Ours are sand, and
+//! its run-out is judged by the first; experiments scatter by 15 % around it. Ours slide in simple shear at 0.515, the slope of a
+//! cone that has 31 degrees in plane strain, not at the experiments' tan(31 degrees) = 0.60, which is worth 17 % of a run-out that
+//! goes with 1/mu; together 22.5 %. Heights of the two laboratories differ by up to 13 %; the band is between them, and 15 %
+//! around. What the data are worth, and what ours are, is the validation `column_level`.
 //!
 //! What is found: by mass the front is 16 % short at a = 0.5 (1 % of the mass is a longer part of a low front) to 12 % too far at
 //! a = 6. By depth, the end of the last cell that holds half a cell of sand, it is 9 to 28 % too far, and its exponent from
@@ -16,17 +18,14 @@
 //! Cells are r0/16 to r0/32, the cone is that of 31 degrees in plane strain, and the fill is stiff enough not to settle by its weight.
 
 use super::report::table_csv;
-use super::scene::{Brick, Material, THICKNESS, scene};
+use super::scene::{Material, THICKNESS};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::boundary::{Boundary, Friction, Opening};
+use crate::boundary::{Friction, Opening};
 use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
-use crate::gauge::flow::FRONT_SHARE;
 use crate::run::records::MomentumRow;
-use crate::simulation::{PicShare, Simulation};
+use crate::simulation::PicShare;
 use crate::theory::collapse as law;
-use crate::theory::elastic::confined_speed;
-use nalgebra::Vector2;
+use crate::validation::column::release::{Column, GRAVITY, depth_between, fronts};
 use rayon::prelude::*;
 
 /// The rung.
@@ -40,7 +39,6 @@ pub const RUNG: Rung = Rung {
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 const PHI: f64 = 31.0 * std::f64::consts::PI / 180.0;
-const GRAVITY: f64 = 9.81;
 const RADIUS: f64 = 0.1;
 const ASPECTS: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 6.0];
 /// Cells over r0: finer for the low columns, whose run-out is short.
@@ -67,35 +65,24 @@ struct Deposit {
 }
 
 fn collapse(aspect: f64, cells: usize, fault: &Fault) -> Result<Deposit, RungFailure> {
-    let h = RADIUS / cells as f64;
-    let high = (aspect * cells as f64).round() as usize;
     let height = RADIUS * aspect;
-    let brick = Brick::new([0.0, 0.0], [cells, high], h);
-    let mut drucker_prager =
-        DruckerPrager::new(SAND.linear_elastic(fault), Cone::PlaneStrain, PHI, 0.0, 0.0, 0.0, true);
-    drucker_prager.friction *= fault.friction;
-    let (at, up) = (Vector2::new, Vector2::new(0.0, 1.0));
-    let gate = Boundary::wall("gate", at(RADIUS, 0.0), up, 2.0 * height, 4.0 * h, Friction::Smooth);
-    let boundaries = vec![
-        Boundary::plane("wall", at(0.0, 0.0), at(1.0, 0.0), Friction::Smooth),
-        Boundary::plane("base", at(0.0, 0.0), up, Friction::Rough),
-        gate.gate(Opening::Vanish),
-    ];
-    let law = AnyLaw::DruckerPrager(drucker_prager);
-    let mut scene = scene(&brick, law, SAND.density * fault.density, brick.points(), boundaries);
-    scene.gravity = [0.0, -GRAVITY * fault.gravity];
-    // Settling; then the share of the paper's runs.
-    scene.numerics.pic = PicShare::Fraction(5e-4);
-    let mut sim = Simulation::new(scene);
-    let crossing = height / confined_speed(&SAND.elastic, SAND.density);
-    sim.set_damping(3.0 / crossing);
-    while sim.time() < 15.0 * crossing {
-        sim.step()?;
-    }
-    sim.set_damping(0.0);
-    sim.set_time(0.0);
-    sim.release_gates();
-    sim.open_ledger();
+    let column = Column {
+        length: RADIUS,
+        height,
+        slope: 0.0,
+        cells,
+        per_cell: 2,
+        material: SAND,
+        friction_angle: PHI,
+        bed: Friction::Rough,
+        opening: Opening::Vanish,
+        side_walls: 0.0,
+        // The share of the paper's runs.
+        pic: PicShare::Fraction(5e-4),
+        cfl: 0.4,
+    };
+    let h = column.spacing();
+    let mut sim = column.released(fault)?;
     let end = DURATION * (height / GRAVITY).sqrt();
     let (mut residual, mut push, mut time, mut next) = (0.0f64, 0.0, 0.0, 0.0);
     let initial = sim.energy_balance(sim.opening(), [0.0; 2]).initial;
@@ -113,34 +100,16 @@ fn collapse(aspect: f64, cells: usize, fault: &Fault) -> Result<Deposit, RungFai
     let now = sim.stock();
     let balance = sim.energy_balance(&now, [0.0; 2]);
     let mass = SAND.density * RADIUS * height * THICKNESS;
+    let [by_mass, _, by_depth] = fronts(&sim, h);
     Ok(Deposit {
-        run_out: fronts(&sim, h).map(|x| x / RADIUS - 1.0),
-        height: depth(&sim, 0.0, 2.0 * h) / RADIUS,
+        run_out: [by_mass, by_depth].map(|x| x / RADIUS - 1.0),
+        height: depth_between(&sim, 0.0, 2.0 * h) / RADIUS,
         kinetic: now.kinetic / initial,
         residual,
         closure: MomentumRow::new(end, sim.ledger(), sim.opening(), &now).closure(),
         base: push / time / (mass * GRAVITY),
         shares: [balance.gravitational / initial, balance.plastic / initial, balance.pic / initial],
     })
-}
-
-/// Volume between two places along x, as a depth, m.
-fn depth(sim: &Simulation, from: f64, to: f64) -> f64 {
-    let volume = sim.bodies()[0].point_volume;
-    let inside = sim.particles().filter(|(_, p)| (from..to).contains(&p.x[0]));
-    inside.map(|(_, p)| volume * p.volume_ratio.min(1.5)).sum::<f64>() / ((to - from) * THICKNESS)
-}
-
-/// The front by mass, and the end of the last cell that is filled by a layer of points at least, with all before it.
-fn fronts(sim: &Simulation, h: f64) -> [f64; 2] {
-    let mut x: Vec<f64> = sim.particles().map(|(_, p)| p.x[0]).collect();
-    x.sort_by(f64::total_cmp);
-    let ahead = (FRONT_SHARE * x.len() as f64).ceil() as usize;
-    let mut cells = 0;
-    while depth(sim, cells as f64 * h, (cells + 1) as f64 * h) >= 0.5 * h {
-        cells += 1;
-    }
-    [x[x.len() - ahead], cells as f64 * h]
 }
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
@@ -223,14 +192,14 @@ fn judge(a: f64, deposit: &Deposit, outcome: &mut Outcome) {
         Check::new(
             format!("a = {a}: run-out over r0, by 1 % of the mass"),
             deposit.run_out[0],
-            span([law::lube_run_out(a), law::lajeunesse_run_out(a)]),
+            Expected::Value(law::lube_run_out(a)),
             "1",
         )
         .within(
             Tolerance::Relative(share),
             "scatter of the experiments, 15 %, and the friction of these grains in simple shear, 0.515 instead of 0.60, 17 %",
         )
-        .from(Kind::Measured, "Lube et al. 2005, Lajeunesse et al. 2005"),
+        .from(Kind::Measured, "Lube et al. 2005"),
     );
     outcome.check(
         Check::new(

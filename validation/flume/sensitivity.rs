@@ -18,7 +18,7 @@ use std::path::Path;
 pub const VALIDATION: Validation = Validation {
     name: "flume_sensitivity",
     title: "The flume with one thing changed at a time: forces, front, depth, energy, time to rest",
-    study: "106 runs, about 20 minutes",
+    study: "108 runs, about 20 minutes",
     run,
     draw,
     covers: &[],
