@@ -23,7 +23,7 @@ use banded::Banded;
 
 /// Most repetitions of contact in a step, and the change of velocity, as a share of the largest, at which they end.
 pub(super) const PASSES: usize = 60;
-pub(super) const SETTLED: f64 = 1e-10;
+pub(super) const SETTLED: f64 = 1e-7;
 
 /// A point with its place and state at the last sort, and the nodes it reaches.
 #[derive(Debug, Clone)]
@@ -78,6 +78,8 @@ pub(super) struct ImplicitBody {
     after: Vec<f64>,
     contact: Vec<f64>,
     touched: Vec<usize>,
+    /// Velocity of each touched node per impulse at each other: xx, xy, yx, yy in 1/kg, row by row.
+    answers: Vec<[f64; 4]>,
     /// Kinetic energy that the nodes had more than the points, J.
     unseen: f64,
     shared: Vec<Shared>,
@@ -137,6 +139,8 @@ impl ImplicitBody {
         }
         self.touched.clear();
         self.touched.reserve(self.shared.len());
+        self.answers.clear();
+        self.answers.reserve(self.shared.len() * self.shared.len());
         self.respond();
     }
 
@@ -188,15 +192,16 @@ impl ImplicitBody {
         let mut touched = std::mem::take(&mut self.touched);
         touched.clear();
         touched.extend((0..self.shared.len()).filter(|&k| self.shared[k].touched));
+        self.answers.clear();
         for &k in &touched {
             let node = self.shared[k].node;
-            let size = |s: &Shared| {
-                let entry = |d: usize, e: usize| s.response[d].get(2 * node + e).copied().unwrap_or(0.0);
-                let squares = entry(0, 0).powi(2) + entry(0, 1).powi(2) + entry(1, 0).powi(2) + entry(1, 1).powi(2);
-                squares.sqrt()
-            };
-            let sum = touched.iter().map(|&j| size(&self.shared[j])).sum();
-            self.shared[k].mobility = sum;
+            let first = self.answers.len();
+            self.answers.extend(touched.iter().map(|&j| {
+                let at = |d: usize, e: usize| self.shared[j].response[d].get(2 * node + e).copied().unwrap_or(0.0);
+                [at(0, 0), at(1, 0), at(0, 1), at(1, 1)]
+            }));
+            let size = |a: &[f64; 4]| a.iter().map(|x| x * x).sum::<f64>().sqrt();
+            self.shared[k].mobility = self.answers[first..].iter().map(size).sum();
         }
         for s in self.shared.iter_mut().filter(|s| !s.touched) {
             s.impulse = [0.0; 2];
@@ -208,7 +213,7 @@ impl ImplicitBody {
     pub fn offer(&mut self, field: &mut VelocityField) {
         for i in 0..self.touched.len() {
             let k = self.touched[i];
-            let v = self.velocity_at(k);
+            let v = self.velocity_at(i);
             let Shared { node, band, index, impulse, mobility, .. } = self.shared[k];
             let open = &mut field.bands[band].nodes.open[index];
             if self.clamped.get(node).is_none_or(|c| *c) || mobility <= 0.0 {
@@ -221,19 +226,14 @@ impl ImplicitBody {
         }
     }
 
-    /// Velocity of a shared node at the end of the step under the impulses found so far.
-    fn velocity_at(&self, slot: usize) -> [f64; 2] {
-        let node = self.shared[slot].node;
-        if node >= self.mass.len() {
-            return [0.0; 2];
-        }
-        let mut v = [self.free[2 * node], self.free[2 * node + 1]];
-        let pushed = self.touched.iter().map(|&k| &self.shared[k]);
-        for s in pushed.filter(|s| !s.response[0].is_empty()) {
-            for (d, p) in s.impulse.into_iter().enumerate() {
-                v[0] += s.response[d][2 * node] * p;
-                v[1] += s.response[d][2 * node + 1] * p;
-            }
+    /// Velocity at the end of the step, under the impulses found so far, of the shared node that is the `i`-th touched one.
+    fn velocity_at(&self, i: usize) -> [f64; 2] {
+        let (node, n) = (self.shared[self.touched[i]].node, self.touched.len());
+        let mut v = [0, 1].map(|d| self.free.get(2 * node + d).copied().unwrap_or(0.0));
+        for (&k, a) in self.touched.iter().zip(&self.answers[i * n..(i + 1) * n]) {
+            let p = self.shared[k].impulse;
+            v[0] += a[0] * p[0] + a[1] * p[1];
+            v[1] += a[2] * p[0] + a[3] * p[1];
         }
         v
     }
