@@ -43,6 +43,7 @@ impl Fixture {
             points_per_direction: 2,
             point_spacing: step,
             weightless: false,
+            implicit: false,
         };
         let mut points = Points::default();
         for k in 0..4 * CELLS[0] * CELLS[1] {

@@ -17,7 +17,8 @@ pub struct Drag {
 }
 
 impl Drag {
-    fn add(&mut self, impulse: [f64; 2], mean: [f64; 2]) {
+    /// Adds an impulse (N s) on what moves at `mean` (m/s), the mean of its velocities before and after.
+    pub fn add(&mut self, impulse: [f64; 2], mean: [f64; 2]) {
         self.impulse[0] += impulse[0];
         self.impulse[1] += impulse[1];
         self.work += impulse[0] * mean[0] + impulse[1] * mean[1];

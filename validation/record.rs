@@ -36,7 +36,7 @@ impl Record {
     pub fn table(&self, context: &mut Context) -> Result<Table, Failure> {
         let (study, plan) = self.plan()?;
         let text = if context.studies { self.run(&study, &plan, context)? } else { self.runs.to_string() };
-        let table = Table::parse(&text, &format!("{}/runs.csv", self.name))?;
+        let table = Table::parse(&text, format!("{}/runs.csv", self.name))?;
         if !table.cells("key")?.iter().eq(plan.iter().map(|r| &r.key)) {
             return Err(Failure::Record(format!(
                 "the recorded runs are not those of the study `{}`: one of them, or a case, has changed since; make the record \

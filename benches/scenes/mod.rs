@@ -50,6 +50,7 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
         points_per_direction: PER_CELL,
         point_spacing: step,
         weightless: false,
+        implicit: false,
     };
     let corner = [0.0, 0.0].into();
     Simulation::new(Scene {
@@ -106,6 +107,7 @@ pub fn barrier(spacing: f64) -> Simulation {
         points_per_direction: PER_CELL,
         point_spacing: step,
         weightless: false,
+        implicit: false,
     };
     let plane =
         |name: &str, normal: [f64; 2], friction| Boundary::plane(name, [0.0; 2].into(), normal.into(), friction);

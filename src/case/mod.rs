@@ -29,8 +29,8 @@ pub use geometry::direction;
 pub use material::{Cone, DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
-    Body, Case, Domain, Gauges, Gravity, Grid, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Pic,
-    Run, Scheme, Settle, ShapeFunction, SideWalls, Stages, Tilt,
+    Body, Case, Domain, Gauges, Gravity, Grid, Integration, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics,
+    Output, Pic, Run, Scheme, Settle, ShapeFunction, SideWalls, Stages, Tilt,
 };
 pub use validate::{Findings, Problem, validate};
 

@@ -143,9 +143,24 @@ pub struct Body {
     /// `contacts`. Default false.
     #[serde(default)]
     pub weightless: bool,
+    /// How it moves through a time step. Default explicit.
+    #[serde(default)]
+    pub integration: Integration,
     /// The mass the body is meant to have, kg, positive. A check, not an input: refused unless density x area x thickness
     /// gives it to 0.1 %.
     pub mass_kg: Option<f64>,
+}
+
+/// How a body moves through a time step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Integration {
+    /// As everything else: its P-wave limits the time step of all.
+    #[default]
+    Explicit,
+    /// Implicitly, together with its contacts: no limit, and more work per step. For stiff elastic bodies in `contacts` that only
+    /// clamps hold; bodies that deform much within half a cell of motion need short explicit steps anyhow.
+    Implicit,
 }
 
 /// The channel's two side walls, whose friction is averaged over its width.

@@ -18,6 +18,8 @@ use crate::output::Table;
 const ROW_PX: f64 = 24.0;
 /// Half the height of a bar.
 const HALF_PX: f64 = 7.0;
+/// Height of the labels at the ends of bars.
+const LABEL_PX: f64 = 0.85 * SMALL_PX;
 const HEAD_PX: f64 = 40.0;
 const FOOT_PX: f64 = 46.0;
 
@@ -55,34 +57,34 @@ struct Panel<'a> {
 pub fn draw(csv: impl AsRef<Path>, what: &Tornado, out_svg: impl AsRef<Path>) -> Result<(), PlotError> {
     let table = Table::load(csv)?;
     let panels = what.panels.iter().map(|p| select(&table, what, p)).collect::<Result<Vec<_>, _>>()?;
-    let rows = panels.iter().map(|p| p.factors.len()).max().unwrap_or(0);
-    let height = (HEAD_PX + ROW_PX * rows as f64 + FOOT_PX) as i32;
-    render(out_svg.as_ref(), height, |canvas| {
-        let wide = f64::from(WIDTH_PX) / panels.len() as f64;
-        for (k, panel) in panels.iter().enumerate() {
-            let area = canvas.clone().shrink((units(wide * k as f64), 0), (units(wide), units(f64::from(height))));
-            draw_panel(canvas, &area, what, panel, units(wide * k as f64), rows)?;
+    // One below the other: names and labels need the width.
+    let tall = |p: &Panel| HEAD_PX + ROW_PX * p.factors.len() as f64 + FOOT_PX;
+    render(out_svg.as_ref(), panels.iter().map(tall).sum::<f64>() as i32, |canvas| {
+        let mut down = 0.0;
+        for panel in &panels {
+            let area = canvas.clone().shrink((0, units(down)), (units(f64::from(WIDTH_PX)), units(tall(panel))));
+            draw_panel(canvas, &area, what, panel)?;
+            down += tall(panel);
         }
         Ok(())
     })
 }
 
-fn draw_panel(
-    canvas: &Canvas<'_>,
-    area: &Canvas<'_>,
-    what: &Tornado,
-    panel: &Panel<'_>,
-    x0: i32,
-    rows: usize,
-) -> Result<(), PlotError> {
+fn draw_panel(canvas: &Canvas<'_>, area: &Canvas<'_>, what: &Tornado, panel: &Panel<'_>) -> Result<(), PlotError> {
+    let rows = panel.factors.len();
     let names = panel.factors.iter().map(|f| text_width_px(&f.name, SMALL_PX)).fold(0.0, f64::max);
     let margins = Margins { left: names + 14.0, right: 18.0, top: HEAD_PX, bottom: FOOT_PX };
     let all = panel.factors.iter().flat_map(|f| f.ends.iter().map(|e| e.0));
     let all = all.chain(panel.noise.into_iter().flatten()).chain([panel.base]);
     let (lo, hi) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     // Room for the labels at the ends of the bars.
-    let room = 0.32 * (hi - lo).max(1e-12);
-    let x = Axis::exact(lo - room, hi + room, 4);
+    let wide = f64::from(WIDTH_PX) - margins.left - margins.right;
+    let label = |k: usize| {
+        let longest = panel.factors.iter().map(|f| text_width_px(&f.ends[k].1, LABEL_PX)).fold(0.0, f64::max);
+        (longest + 12.0) / wide
+    };
+    let span = (hi - lo).max(1e-12) / (1.0 - label(0) - label(1)).max(0.2);
+    let x = Axis::exact(lo - label(0) * span, hi + label(1) * span, 6);
     let y = Axis::named(vec![0.0, rows.max(1) as f64], vec![String::new(), String::new()]);
     let frame = Frame::draw(area, &margins, (&x, what.title), (&y, ""))?;
     let (left, right, top, bottom) = frame.bounds();
@@ -95,7 +97,7 @@ fn draw_panel(
     let base = across(panel.base);
     for (k, factor) in panel.factors.iter().enumerate() {
         let height = top + units(ROW_PX * (k as f64 + 0.5));
-        write_at(canvas, &factor.name, (x0 + units(names + 4.0), height), SMALL_PX, INK, HPos::Right)?;
+        write_at(canvas, &factor.name, (units(names + 4.0), height), SMALL_PX, INK, HPos::Right)?;
         for (end, colour) in [(&factor.ends[0], BLUE), (&factor.ends[1], VERMILION)] {
             let at = across(end.0);
             if at == base {
@@ -105,7 +107,7 @@ fn draw_panel(
             let corners = vec![(base, height - half), (at, height - half), (at, height + half), (base, height + half)];
             fill(canvas, corners, &colour.mix(0.75))?;
             let (shift, side) = if at < base { (-4.0, HPos::Right) } else { (4.0, HPos::Left) };
-            write_at(canvas, &end.1, (at + units(shift), height), 0.85 * SMALL_PX, GREY, side)?;
+            write_at(canvas, &end.1, (at + units(shift), height), LABEL_PX, GREY, side)?;
         }
     }
     stroke(canvas, vec![(base, top), (base, bottom)], line(INK, 1.0))

@@ -12,6 +12,7 @@ use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
 use coupling::Coupling;
 use failure::CRUSHED;
 use field::VelocityField;
+use implicit::ImplicitBody;
 use stages::Stage;
 use sweep::On;
 
@@ -19,6 +20,7 @@ mod access;
 mod coupling;
 mod failure;
 mod field;
+mod implicit;
 mod scene;
 mod stages;
 mod sweep;
@@ -26,6 +28,9 @@ mod sweep;
 pub use coupling::ContactPoint;
 pub use failure::StepFailure;
 pub use scene::{Acceleration, AccelerationField, Numerics, PicShare, Scene, Scheme};
+
+/// Share of the stable time step that is left unused so that a step can keep its length for a while.
+const SPARE: f64 = 0.03;
 
 /// A running simulation.
 #[derive(Debug, Clone)]
@@ -45,6 +50,7 @@ pub struct Simulation {
 
     fields: Vec<VelocityField>,
     coupling: Coupling,
+    implicit: Vec<ImplicitBody>,
     speeds: Vec<f64>,
 
     time: f64,
@@ -94,6 +100,7 @@ impl Simulation {
             step_tallies: vec![Tally::default(); boundaries.len()],
             ledger: Ledger::new(boundaries.len(), scene.contacts.len()),
             coupling: Coupling::new(&scene.contacts, &fields),
+            implicit: implicit::bodies(&fields),
             bodies,
             boundaries,
             fields,
@@ -135,6 +142,9 @@ impl Simulation {
     /// Does stages of a step on all fields.
     fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64) {
         for k in 0..self.fields.len() {
+            if self.implicit.iter().any(|b| b.field == k) {
+                continue;
+            }
             let (step, bands) = self.begin(k, dt);
             sweep::sweep(stages, bands, &|&stage, before, band| step.run(stage, before, band));
         }
@@ -144,12 +154,16 @@ impl Simulation {
     fn sweep_coupled(&mut self, stages: &[(On, Stage)], dt: f64) {
         if self.coupling.stale {
             self.coupling.rebuild(&mut self.fields);
+            self.implicit.iter_mut().for_each(|b| b.follow(&self.fields[b.field]));
         }
         for part in stages.split_inclusive(|(on, _)| *on == On::Nodes) {
             self.sweep_all(part, dt);
             match part.last() {
                 Some((_, Stage::Momentum)) => {
-                    self.coupling.exchange(&mut self.fields, &self.boundaries, self.numerics.shape, dt);
+                    self.predict(dt);
+                    let (fields, shape) = (&mut self.fields, self.numerics.shape);
+                    self.coupling.exchange(fields, &self.boundaries, shape, dt, &mut self.implicit);
+                    self.finish(dt);
                 }
                 Some((_, Stage::RemappedVelocities | Stage::OldVelocities)) => self.coupling.project(&mut self.fields),
                 _ => {}
@@ -159,7 +173,32 @@ impl Simulation {
 
     fn next_time_step(&self) -> TimeStep {
         let n = &self.numerics;
-        stable_time_step(&self.bodies, &self.speeds, self.lattice.spacing, n.cfl, n.max_time_step)
+        let limit = stable_time_step(&self.bodies, &self.speeds, self.lattice.spacing, n.cfl, n.max_time_step);
+        if self.implicit.is_empty() || limit.limit == TimeStepLimit::Maximum {
+            return limit;
+        }
+        // A step of another length costs a body in implicit steps a new factorisation.
+        let last = self.time_step.dt;
+        let keep = last <= limit.dt && last >= (1.0 - 2.0 * SPARE) * limit.dt;
+        TimeStep { dt: if keep { last } else { (1.0 - SPARE) * limit.dt }, ..limit }
+    }
+
+    /// Lets bodies in implicit steps find how they would move without contact.
+    fn predict(&mut self, dt: f64) {
+        for k in 0..self.implicit.len() {
+            let forces = self.forces_on(self.implicit[k].field);
+            let body = &mut self.implicit[k];
+            body.predict(&mut self.fields[body.field], forces, dt);
+        }
+    }
+
+    /// Moves bodies in implicit steps.
+    fn finish(&mut self, dt: f64) {
+        for k in 0..self.implicit.len() {
+            let forces = self.forces_on(self.implicit[k].field);
+            let body = &mut self.implicit[k];
+            body.finish(&mut self.fields[body.field], &self.boundaries, forces, dt);
+        }
     }
 
     /// Books what acted from outside.
@@ -204,7 +243,7 @@ impl Simulation {
                 moved = moved.max(s.max_displacement);
                 smallest = smallest.min(s.min_volume_ratio);
             }
-            field.drift += moved;
+            field.drift += moved; // of a body in implicit steps it is set
             field.members.iter().for_each(|&body| self.speeds[body] = speed);
             fastest = fastest.max(speed);
         }
@@ -221,6 +260,9 @@ impl Simulation {
         let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
         self.fields[field].sort(&rules, &self.boundaries);
         self.coupling.stale = true;
+        if let Some(body) = self.implicit.iter_mut().find(|b| b.field == field) {
+            body.rebuild(field, &self.fields[field], self.numerics.shape);
+        }
         for i in 0..self.fields[field].departed.len() {
             self.book_departure(self.fields[field].departed[i]);
         }

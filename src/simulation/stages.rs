@@ -70,18 +70,23 @@ pub(super) struct Step<'a> {
 }
 
 impl Simulation {
+    /// What acts on every node of a velocity field.
+    pub(super) fn forces_on(&self, field: usize) -> BodyForces {
+        let weightless = self.fields[field].bodies.iter().all(|b| b.weightless);
+        BodyForces { gravity: if weightless { [0.0; 2] } else { self.forces.gravity }, ..self.forces }
+    }
+
     /// The step of `dt` seconds that begins now for one velocity field, and the bands to do it on.
     pub(super) fn begin(&mut self, field: usize, dt: f64) -> (Step<'_>, &mut [Band]) {
+        let forces = self.forces_on(field);
         let VelocityField { bodies, bands, grid, .. } = &mut self.fields[field];
-        let weightless = bodies.iter().all(|b| b.weightless);
-        let gravity = if weightless { [0.0; 2] } else { self.forces.gravity };
         let scheme = self.numerics.scheme;
         let step = Step {
             grid,
             bodies,
             boundaries: &self.boundaries,
             shape: self.numerics.shape,
-            forces: BodyForces { gravity, ..self.forces },
+            forces,
             field: self.field.as_ref(),
             side_friction: self.side_friction,
             time: self.time,

@@ -125,7 +125,7 @@ fn what_is_wrong_is_named() {
         ("contact\" = \"rough\"", "contact\" = \"rouhg\"", "did you mean `rough`?"),
         ("cases = [\"drop.toml\"]", "cases = []", "it has no case"),
         ("values = [1.0e5, 2.0e5]", "values = []", "axis `young_pa`"),
-        ("values = [1.0e5, 2.0e5]", "values = [-1.0e5]", "young_pa = -1e5"),
+        ("values = [1.0e5, 2.0e5]", "values = [-1.0e5]", "young_pa = -100000.0 is not allowed"),
         ("factor =", "fctor =", "fctor"),
         ("title = ", "titel = ", "titel"),
     ] {

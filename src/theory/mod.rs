@@ -6,6 +6,7 @@ pub mod bar;
 pub mod barrier;
 pub mod cantilever;
 pub mod collapse;
+pub mod deposit;
 pub mod dispersion;
 pub mod drucker_prager;
 pub mod earth_pressure;

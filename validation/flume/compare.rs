@@ -7,14 +7,17 @@ use crate::verification::report::number;
 /// The file of the paper's numbers for the flume.
 const PUBLISHED: data::Source = data::SOURCES[0];
 
+/// What stands beside a published number, from the quantities of a run by their names.
+pub type Counterpart = fn(&dyn Fn(&str) -> f64) -> f64;
+
 /// The published numbers of a case that have a counterpart here, with what gives it from the quantities of a run.
-pub fn published(case: &str) -> Vec<(Datum, fn(&dyn Fn(&str) -> f64) -> f64)> {
+pub fn published(case: &str) -> Vec<(Datum, Counterpart)> {
     let rows = data::rows(PUBLISHED).into_iter().filter(|r| r.case == case);
     rows.filter_map(|r| Some((counterpart(&r.quantity)?, r))).map(|(of, r)| (r, of)).collect()
 }
 
 /// What of a run stands beside a published quantity.
-fn counterpart(quantity: &str) -> Option<fn(&dyn Fn(&str) -> f64) -> f64> {
+fn counterpart(quantity: &str) -> Option<Counterpart> {
     Some(match quantity {
         "front velocity before impact" => |q| q("front_velocity_m_per_s"),
         "Froude number before impact" | "Froude number before impact, observed" => |q| q("froude_1"),

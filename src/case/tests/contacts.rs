@@ -129,6 +129,30 @@ fn only_a_body_in_a_contact_can_be_weightless() {
 }
 
 #[test]
+fn implicit_steps_are_for_clamped_elastic_bodies_in_contact() {
+    // All boundaries for the sand alone, but the clamp.
+    let apart = |text: &str| {
+        text.replace("kind = \"wall\"", "kind = \"wall\"\nbodies = [\"sand\"]")
+            .replace("kind = \"gate\"", "kind = \"gate\"\nbodies = [\"sand\"]")
+    };
+    let implicit =
+        |text: String| text.replacen("material = \"plastic\"", "material = \"plastic\"\nintegration = \"implicit\"", 1);
+    let loaded = parse(&apart(&implicit(with(CONTACT))), "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(loaded.case.bodies[1].integration, crate::case::Integration::Implicit);
+    for (text, part) in [
+        (implicit(with(CONTACT)), "no boundary but clamps acts on"),
+        (apart(&implicit(with(""))), "only for a body in [[contacts]]"),
+        (
+            apart(&implicit(with(CONTACT)).replacen("material = \"plastic\"", "material = \"sand\"", 1)),
+            "only for an elastic law",
+        ),
+    ] {
+        let report = report_of(&text);
+        assert!(report.contains(part) && report.contains("bodies[1].integration = \"implicit\""), "{report}");
+    }
+}
+
+#[test]
 fn no_body_may_be_forgotten() {
     let third = BARRIER
         .split("[[boundaries]]")

@@ -4,7 +4,7 @@ use super::{Checker, text};
 use crate::case::boundary::{Boundary, ContactKind, Shape};
 use crate::case::geometry::{Penetration, penetration_of_plane, penetration_of_rectangle};
 use crate::case::path::KeyPath;
-use crate::case::schema::Body;
+use crate::case::schema::{Body, Integration};
 use crate::case::suggest::did_you_mean;
 
 /// Overlap up to this depth is rounding, m.
@@ -36,6 +36,7 @@ impl Checker<'_> {
                 self.not_allowed(&at.key("material"), &body.material, "the name of one of [materials.NAME]", &fix);
             }
             self.mass(&at, body);
+            self.integration(&at, body);
             if body.weightless && !self.case.contacts.iter().any(|c| c.bodies.contains(&body.name)) {
                 let allowed = "true only for a body in [[contacts]]: others share their motion on the grid";
                 let fix = "remove the line, or add [[contacts]] with this body";
@@ -52,6 +53,31 @@ impl Checker<'_> {
                 self.overlap(&at, body, penetration, &format!("body `{}`", other.name));
             }
         }
+    }
+
+    /// A body in implicit steps has a velocity field of its own, is elastic, and is held by clamps alone.
+    fn integration(&mut self, at: &KeyPath, body: &Body) {
+        if body.integration != Integration::Implicit {
+            return;
+        }
+        let path = at.key("integration");
+        let elastic = self.case.materials.get(&body.material).is_none_or(|m| m.drucker_prager().is_none());
+        let loose = |b: &&Boundary| b.acts_on(&body.name) && b.contact != ContactKind::Bonded;
+        let (allowed, fix) = if !self.case.contacts.iter().any(|c| c.bodies.contains(&body.name)) {
+            (
+                "\"implicit\" only for a body in [[contacts]]",
+                "add [[contacts]] with this body, or remove the line".to_owned(),
+            )
+        } else if !elastic {
+            ("\"implicit\" only for an elastic law", "use law = \"neo_hookean\", or remove the line".to_owned())
+        } else if let Some(boundary) = self.case.boundaries.iter().find(loose) {
+            let fix =
+                format!("name the bodies of boundary `{}`: bodies = [...] without `{}`", boundary.name, body.name);
+            ("\"implicit\" only for a body that no boundary but clamps acts on", fix)
+        } else {
+            return;
+        };
+        self.not_allowed(&path, &body.integration, allowed, &fix);
     }
 
     fn mass(&mut self, at: &KeyPath, body: &Body) {

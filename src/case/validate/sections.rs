@@ -44,7 +44,7 @@ impl Checker<'_> {
         let at = KeyPath::top("grid");
         self.positive(&at.key("spacing_m"), grid.spacing_m, 0.01);
         self.positive(&at.key("thickness_m"), grid.thickness_m, 0.2);
-        if grid.origin_m.iter().any(|o| o.abs() > grid.spacing_m) {
+        if grid.spacing_m > 0.0 && grid.origin_m.iter().any(|o| o.abs() > grid.spacing_m) {
             let allowed = "at most one spacing_m from 0: all nodes follow from one";
             self.not_allowed(&at.key("origin_m"), &grid.origin_m, allowed, "give the place of the node next to [0, 0]");
         }

@@ -1,6 +1,6 @@
 //! A barrier that is a body: what its contacts and its clamp do to it, how it bends, whether it holds together.
 //!
-//! Two of the three ways to know the force on it are here, besides the stress layers of [`survey`]. What the contacts give less
+//! Two of the three ways to know the force on it are here, besides the stress layers of `survey`. What the contacts give less
 //! what the clamp takes is the rate of the barrier's momentum, node by node and step by step, so that both must agree to
 //! round-off; the largest disagreement is a result.
 

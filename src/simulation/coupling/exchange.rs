@@ -9,6 +9,7 @@ use crate::contact::pair::{State, Touch};
 use crate::contact::rule::{MAX_SIDES, Sides};
 use crate::momentum;
 use crate::shape::ShapeFunction;
+use crate::simulation::implicit::{ImplicitBody, PASSES, SETTLED};
 
 /// A band and the one before it.
 fn with_before(bands: &mut [Band], k: usize) -> (Option<&mut Band>, &mut Band) {
@@ -18,8 +19,58 @@ fn with_before(bands: &mut [Band], k: usize) -> (Option<&mut Band>, &mut Band) {
 
 impl Coupling {
     /// Closes the momentum balance of all shared nodes: finds where bodies touch, and the impulses of contact and boundaries.
-    pub fn exchange(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], shape: ShapeFunction, dt: f64) {
+    ///
+    /// Bodies in implicit steps answer an impulse at one node at all nodes: with them contact is repeated until it no longer
+    /// changes what they do, and only the last pass counts.
+    pub fn exchange(
+        &mut self,
+        fields: &mut [VelocityField],
+        boundaries: &[Boundary],
+        shape: ShapeFunction,
+        dt: f64,
+        implicit: &mut [ImplicitBody],
+    ) {
         self.find_touches(fields, shape, dt);
+        if !implicit.is_empty() {
+            self.approach(fields, boundaries, implicit);
+        }
+        self.pass(fields, boundaries, implicit, true);
+    }
+
+    /// Passes without consequences, until bodies in implicit steps and contact agree.
+    fn approach(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], implicit: &mut [ImplicitBody]) {
+        for p in &self.pending {
+            for side in &self.sides[self.nodes[p.node as usize].sides.clone()] {
+                if let Some(body) = implicit.iter_mut().find(|b| b.field == side.field) {
+                    body.touch(body.slot(side.band, side.index));
+                }
+            }
+        }
+        implicit.iter_mut().for_each(ImplicitBody::weigh);
+        for pass in 0..PASSES {
+            implicit.iter_mut().for_each(|b| b.offer(&mut fields[b.field]));
+            self.pass(fields, boundaries, implicit, false);
+            let mut settled = true;
+            for body in implicit.iter_mut() {
+                let [change, largest] = body.settle();
+                settled &= change <= SETTLED * largest;
+                body.passes = body.passes.max(pass + 1);
+            }
+            if settled {
+                break;
+            }
+        }
+        implicit.iter_mut().for_each(|b| b.offer(&mut fields[b.field]));
+    }
+
+    /// Solves all nodes once; `last` says whether it counts.
+    fn pass(
+        &mut self,
+        fields: &mut [VelocityField],
+        boundaries: &[Boundary],
+        implicit: &mut [ImplicitBody],
+        last: bool,
+    ) {
         self.touches.clear();
         self.solved.clear();
         self.points.clear();
@@ -29,7 +80,14 @@ impl Coupling {
             while self.pending.get(next).is_some_and(|p| p.node as usize == n) {
                 next += 1;
             }
-            self.solve(n, first..next, fields, boundaries);
+            if last || next > first {
+                self.solve(n, first..next, fields, boundaries, implicit, last);
+            }
+        }
+        if last {
+            implicit.iter_mut().for_each(|b| {
+                b.settle();
+            });
         }
     }
 
@@ -53,6 +111,8 @@ impl Coupling {
         pending: std::ops::Range<usize>,
         fields: &mut [VelocityField],
         boundaries: &[Boundary],
+        implicit: &mut [ImplicitBody],
+        last: bool,
     ) {
         let shared = &self.nodes[n];
         let own = &self.sides[shared.sides.clone()];
@@ -94,6 +154,17 @@ impl Coupling {
             } else {
                 node::solve(sides, touches);
             }
+            for body in implicit.iter_mut() {
+                let Some(k) = own.iter().position(|at| at.field == body.field) else { continue };
+                let slot = body.slot(own[k].band, own[k].index);
+                for touch in touches.iter().filter(|t| t.sides.contains(&k)) {
+                    let sign = if touch.sides[1] == k { 1.0 } else { -1.0 };
+                    body.push(slot, touch.vector_impulse().map(|p| sign * p));
+                }
+            }
+            if !last {
+                return;
+            }
             // What contact gives to a clamped body goes into the clamp.
             for (k, side) in sides.iter_mut().enumerate().filter(|(_, s)| s.fixed) {
                 let at = &own[k];
@@ -127,7 +198,8 @@ impl Coupling {
                 clamped: [false; MAX_SIDES],
             };
             for (k, side) in sides.iter().enumerate() {
-                (solved.masses[k], solved.clamped[k]) = (side.mass, side.fixed);
+                let moved_later = implicit.iter().any(|b| b.field == own[k].field);
+                (solved.masses[k], solved.clamped[k]) = (side.mass, side.fixed || moved_later);
             }
             self.solved.push(solved);
         } else {

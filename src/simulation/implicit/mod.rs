@@ -1,0 +1,263 @@
+//! A stiff body in implicit steps, so that its waves do not shorten the time step of everything else.
+//!
+//! From sort to sort the body moves by the linear momentum balance of its own grid nodes,
+//! `M (w1 - w0) = dt (M g - f - K d1) + J + R` with `d1 - d0 = dt w1` (implicit Euler), where M is the lumped mass, f the force of the stresses at the sort, K the elastic
+//! stiffness of the points where they were at the sort, d the displacement since then, J the impulses of contact and R those of
+//! clamps. Shape functions and points are those of everything else. A sort follows after half a cell of motion, so turns may be
+//! large although every piece between sorts is linear; what is neglected is the stiffness that stress itself gives.
+//!
+//! Implicit Euler damps a swing of angular frequency w by w dt/2 of critical: nothing for the bending of a barrier in steps of the
+//! sand, and much for waves that such steps cannot follow. What it takes is measured. The trapezoidal rule, which takes nothing,
+//! lets contact, whose law holds at the end of a step, feed such waves until the run breaks down.
+//!
+//! Contact and body are solved together. Contact is solved node by node as for any body, with the velocity that the node has
+//! under all other contact impulses and a mass that is never more than the body shows to all touching nodes at once (row sums of
+//! the response, Gershgorin's bound); repeated, impulses approach those at which body and contact law agree at every node.
+
+mod assembly;
+mod banded;
+mod motion;
+
+use super::field::VelocityField;
+use banded::Banded;
+
+/// Most repetitions of contact in a step, and the change of velocity, as a share of the largest, at which they end.
+pub(super) const PASSES: usize = 60;
+pub(super) const SETTLED: f64 = 1e-10;
+
+/// A point with its place and state at the last sort, and the nodes it reaches.
+#[derive(Debug, Clone)]
+struct Point {
+    base: crate::body::Particle,
+    nodes: [u32; 9],
+    weight: [f64; 9],
+    gradient: [[f64; 2]; 9],
+}
+
+/// A node that other fields reach.
+#[derive(Debug, Clone)]
+struct Shared {
+    node: usize,
+    band: usize,
+    index: usize,
+    /// Velocities of all nodes per unit impulse along x and y; empty for a clamped node.
+    response: [Vec<f64>; 2],
+    /// Contact impulse of the step, N s.
+    impulse: [f64; 2],
+    /// Impulse of the pass that is going on, N s.
+    next: [f64; 2],
+    /// Velocity per impulse that contact is told, 1/kg.
+    mobility: f64,
+    touched: bool,
+}
+
+/// A body in implicit steps.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ImplicitBody {
+    /// Its velocity field.
+    pub field: usize,
+    points: Vec<Point>,
+    /// Band and place in it of each node.
+    places: Vec<(usize, usize)>,
+    mass: Vec<f64>,
+    clamped: Vec<bool>,
+    /// Force of the stresses at the sort, N, and stiffness, N/m.
+    force: Vec<f64>,
+    stiffness: Banded,
+    factor: Banded,
+    /// Step for which the factor holds, s.
+    dt: f64,
+    velocity: Vec<f64>,
+    displacement: Vec<f64>,
+    /// Velocity at the sort, m/s.
+    start: Vec<f64>,
+    /// Velocity at the end of the step without contact, m/s.
+    free: Vec<f64>,
+    before: Vec<f64>,
+    damped: Vec<f64>,
+    after: Vec<f64>,
+    contact: Vec<f64>,
+    touched: Vec<usize>,
+    /// Kinetic energy that the nodes had more than the points, J.
+    unseen: f64,
+    shared: Vec<Shared>,
+    /// First of the shared nodes of each band.
+    slots: Vec<usize>,
+    /// Largest number of passes in a step.
+    pub passes: usize,
+}
+
+/// The bodies in implicit steps among those that have a velocity field of their own.
+pub(super) fn bodies(fields: &[VelocityField]) -> Vec<ImplicitBody> {
+    let alone = fields.iter().enumerate().filter(|(_, f)| f.bodies.len() == 1 && f.bodies[0].implicit);
+    alone.map(|(field, _)| ImplicitBody { field, ..ImplicitBody::default() }).collect()
+}
+
+impl ImplicitBody {
+    /// Where a shared node is kept.
+    pub fn slot(&self, band: usize, index: usize) -> usize {
+        self.slots[band] + index
+    }
+
+    /// Follows a new list of shared nodes; responses that are known are kept.
+    pub fn follow(&mut self, field: &VelocityField) {
+        let old = std::mem::take(&mut self.shared);
+        let mut known = vec![None; self.mass.len()];
+        old.into_iter().for_each(|s| {
+            let node = s.node;
+            if let Some(place) = known.get_mut(node) {
+                *place = Some(s);
+            }
+        });
+        let mut number = vec![usize::MAX; field.grid.len()];
+        for (node, &(band, at)) in self.places.iter().enumerate() {
+            number[field.bands[band].first_node + at] = node;
+        }
+        self.slots.clear();
+        for (b, band) in field.bands.iter().enumerate() {
+            self.slots.push(self.shared.len());
+            for (index, &at) in band.nodes.shared.iter().enumerate() {
+                let node = number[band.first_node + at as usize];
+                let response = match known.get_mut(node).and_then(Option::take) {
+                    Some(s) => s.response,
+                    None => Default::default(),
+                };
+                let (impulse, next) = ([0.0; 2], [0.0; 2]);
+                self.shared.push(Shared {
+                    node,
+                    band: b,
+                    index,
+                    response,
+                    impulse,
+                    next,
+                    mobility: 0.0,
+                    touched: false,
+                });
+            }
+        }
+        self.touched.clear();
+        self.touched.reserve(self.shared.len());
+        self.respond();
+    }
+
+    /// Finds the responses that are missing.
+    fn respond(&mut self) {
+        if self.dt <= 0.0 {
+            return;
+        }
+        let Self { shared, clamped, mass, factor, .. } = self;
+        let missing = |s: &&mut Shared| s.node < mass.len() && !clamped[s.node] && s.response[0].is_empty();
+        for s in shared.iter_mut().filter(missing) {
+            for d in 0..2 {
+                let mut column = vec![0.0; 2 * mass.len()];
+                column[2 * s.node + d] = 1.0;
+                factor.solve(&mut column);
+                s.response[d] = column;
+            }
+        }
+    }
+
+    /// Makes ready for steps of `dt` (s).
+    pub fn set_step(&mut self, dt: f64) {
+        if dt == self.dt {
+            return;
+        }
+        self.dt = dt;
+        self.factor.scaled_from(&self.stiffness, dt * dt);
+        for (node, &m) in self.mass.iter().enumerate() {
+            for i in [2 * node, 2 * node + 1] {
+                if self.clamped[node] {
+                    self.factor.isolate(i, 1.0);
+                } else {
+                    self.factor.add(i, i, m);
+                }
+            }
+        }
+        assert!(self.factor.factor(), "mass plus stiffness is positive definite");
+        self.shared.iter_mut().for_each(|s| s.response = Default::default());
+        self.respond();
+    }
+
+    /// Notes that a shared node is touched in this step.
+    pub fn touch(&mut self, slot: usize) {
+        self.shared[slot].touched = true;
+    }
+
+    /// Finds how much each touched node yields when all are pushed.
+    pub fn weigh(&mut self) {
+        let mut touched = std::mem::take(&mut self.touched);
+        touched.clear();
+        touched.extend((0..self.shared.len()).filter(|&k| self.shared[k].touched));
+        for &k in &touched {
+            let node = self.shared[k].node;
+            let size = |s: &Shared| {
+                let entry = |d: usize, e: usize| s.response[d].get(2 * node + e).copied().unwrap_or(0.0);
+                let squares = entry(0, 0).powi(2) + entry(0, 1).powi(2) + entry(1, 0).powi(2) + entry(1, 1).powi(2);
+                squares.sqrt()
+            };
+            let sum = touched.iter().map(|&j| size(&self.shared[j])).sum();
+            self.shared[k].mobility = sum;
+        }
+        for s in self.shared.iter_mut().filter(|s| !s.touched) {
+            s.impulse = [0.0; 2];
+        }
+        self.touched = touched;
+    }
+
+    /// Tells contact how the shared nodes move under the impulses found so far.
+    pub fn offer(&mut self, field: &mut VelocityField) {
+        for i in 0..self.touched.len() {
+            let k = self.touched[i];
+            let v = self.velocity_at(k);
+            let Shared { node, band, index, impulse, mobility, .. } = self.shared[k];
+            let open = &mut field.bands[band].nodes.open[index];
+            if self.clamped.get(node).is_none_or(|c| *c) || mobility <= 0.0 {
+                open.free = v;
+            } else {
+                open.mass = 1.0 / mobility;
+                open.free = [v[0] - mobility * impulse[0], v[1] - mobility * impulse[1]];
+            }
+            self.shared[k].next = [0.0; 2];
+        }
+    }
+
+    /// Velocity of a shared node at the end of the step under the impulses found so far.
+    fn velocity_at(&self, slot: usize) -> [f64; 2] {
+        let node = self.shared[slot].node;
+        if node >= self.mass.len() {
+            return [0.0; 2];
+        }
+        let mut v = [self.free[2 * node], self.free[2 * node + 1]];
+        let pushed = self.touched.iter().map(|&k| &self.shared[k]);
+        for s in pushed.filter(|s| !s.response[0].is_empty()) {
+            for (d, p) in s.impulse.into_iter().enumerate() {
+                v[0] += s.response[d][2 * node] * p;
+                v[1] += s.response[d][2 * node + 1] * p;
+            }
+        }
+        v
+    }
+
+    /// Adds an impulse that contact has found at a shared node, N s.
+    pub fn push(&mut self, slot: usize, impulse: [f64; 2]) {
+        let next = &mut self.shared[slot].next;
+        *next = [next[0] + impulse[0], next[1] + impulse[1]];
+    }
+
+    /// Takes over the impulses of a pass. Returns the largest change of a velocity and the largest velocity, m/s.
+    pub fn settle(&mut self) -> [f64; 2] {
+        let (mut change, mut largest) = (0.0f64, 0.0f64);
+        for &k in &self.touched {
+            let s = &mut self.shared[k];
+            for d in 0..2 {
+                change = change.max((s.next[d] - s.impulse[d]).abs() * s.mobility);
+                largest = largest.max(s.next[d].abs() * s.mobility);
+            }
+            s.impulse = s.next;
+        }
+        [change, largest]
+    }
+}
+
+#[cfg(test)]
+mod tests;

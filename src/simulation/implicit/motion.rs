@@ -1,0 +1,178 @@
+//! A step of a body in implicit steps: before contact, and after.
+
+use super::ImplicitBody;
+use crate::body::Particle;
+use crate::boundary::Boundary;
+use crate::boundary::nodes::Tally;
+use crate::constitutive::{Increment, Law};
+use crate::momentum::{BodyForces, Distributed};
+use crate::simulation::field::VelocityField;
+
+impl ImplicitBody {
+    /// Finds how the body would move without contact, and opens the nodes that other fields reach.
+    pub fn predict(&mut self, field: &mut VelocityField, forces: BodyForces, dt: f64) {
+        self.set_step(dt);
+        let Self { velocity, displacement, stiffness, force, free, before, damped, mass, clamped, .. } = self;
+        stiffness.multiply(displacement, before);
+        before.iter_mut().zip(force.iter()).for_each(|(b, f)| *b += f);
+        let share = (dt * forces.damping).min(1.0);
+        for (node, m) in mass.iter().enumerate() {
+            for d in 0..2 {
+                let i = 2 * node + d;
+                damped[i] = -share * m * velocity[i];
+                free[i] = m * (velocity[i] + dt * forces.gravity[d]) + damped[i] - dt * before[i];
+                if clamped[node] {
+                    free[i] = 0.0;
+                }
+            }
+        }
+        self.factor.solve(&mut self.free);
+        for s in &mut self.shared {
+            s.touched = false;
+            let open = &mut field.bands[s.band].nodes.open[s.index];
+            *open = Default::default();
+            if s.node < self.mass.len() {
+                open.mass = self.mass[s.node];
+                open.old = [self.velocity[2 * s.node], self.velocity[2 * s.node + 1]];
+                open.free = [self.free[2 * s.node], self.free[2 * s.node + 1]];
+            }
+        }
+    }
+
+    /// Ends the step under the impulses found: moves nodes and points, and fills in the sums of the field's bands.
+    pub fn finish(&mut self, field: &mut VelocityField, boundaries: &[Boundary], forces: BodyForces, dt: f64) {
+        let mut new = std::mem::take(&mut self.free);
+        for s in self.shared.iter().filter(|s| s.touched && !s.response[0].is_empty()) {
+            for (response, p) in s.response.iter().zip(s.impulse).filter(|(_, p)| *p != 0.0) {
+                new.iter_mut().zip(response).for_each(|(v, r)| *v += r * p);
+            }
+        }
+        for (d, v) in self.displacement.iter_mut().zip(&new) {
+            *d += dt * v;
+        }
+        // Force of the stresses at the end.
+        let mut after = std::mem::take(&mut self.after);
+        self.stiffness.multiply(&self.displacement, &mut after);
+        after.iter_mut().zip(&self.force).for_each(|(a, f)| *a += f);
+        let mean = |i: usize| 0.5 * (self.velocity[i] + new[i]);
+        let stored: f64 = (0..new.len()).map(|i| dt * new[i] * 0.5 * (self.before[i] + after[i])).sum();
+        let taken: f64 = after.iter().enumerate().map(|(i, f)| dt * f * mean(i)).sum();
+        for band in &mut field.bands {
+            band.tallies.clear();
+            band.tallies.resize(boundaries.len(), Tally::default());
+            band.distributed = Distributed::default();
+            band.sums = Default::default();
+            band.sums.min_volume_ratio = f64::INFINITY;
+        }
+        // What is missing to the momentum balance of a clamped node comes from its clamp.
+        let contact = &mut self.contact;
+        contact.fill(0.0);
+        for s in self.shared.iter().filter(|s| s.touched && s.node < self.mass.len()) {
+            contact[2 * s.node] += s.impulse[0];
+            contact[2 * s.node + 1] += s.impulse[1];
+        }
+        for (node, &(band, at)) in self.places.iter().enumerate() {
+            let m = self.mass[node];
+            let band = &mut field.bands[band];
+            let damped = [self.damped[2 * node], self.damped[2 * node + 1]];
+            if forces.damping > 0.0 {
+                band.distributed.damping.add(damped, [mean(2 * node), mean(2 * node + 1)]);
+            }
+            if !self.clamped[node] {
+                continue;
+            }
+            let impulse = [0, 1].map(|d| {
+                let i = 2 * node + d;
+                m * (new[i] - self.velocity[i]) - dt * (m * forces.gravity[d] - after[i]) - damped[d] - contact[i]
+            });
+            let number = band.first_node + at;
+            if let Some(hold) = band.nodes.holds.iter().find(|h| h.node as usize == number) {
+                let moment = hold.arm[0] * impulse[1] - hold.arm[1] * impulse[0];
+                let tally = Tally { impulse, moment, ..Tally::default() };
+                band.tallies[hold.boundary as usize].add(&tally);
+            }
+        }
+        self.free = std::mem::replace(&mut self.velocity, new);
+        self.after = after;
+        field.drift = 2.0 * self.displacement.iter().fold(0.0f64, |a, d| a.max(d.abs()));
+        self.move_points(field);
+        let points = self.point_kinetic(field);
+        let every = field.bands.iter().flat_map(|b| b.points[0].iter());
+        let fastest = every.fold(0.0f64, |a, p| a.max(p.v[0].abs()).max(p.v[1].abs()));
+        let unseen = self.nodal_kinetic() - points;
+        let sums = &mut field.bands[0].sums;
+        sums.internal_work = stored;
+        sums.kinetic = points;
+        // What implicit steps take, and the energy of ripples that nodes have and points do not see, which comes and goes.
+        sums.pic_loss = taken - stored + (unseen - self.unseen);
+        sums.max_speed = fastest;
+        self.unseen = unseen;
+        self.show(field);
+    }
+
+    /// Lets the shared nodes of the field show how the body moves.
+    fn show(&self, field: &mut VelocityField) {
+        for s in self.shared.iter().filter(|s| s.node < self.mass.len()) {
+            let band = &mut field.bands[s.band];
+            let at = band.nodes.shared[s.index] as usize;
+            band.nodes.strain_velocity[at] = [self.velocity[2 * s.node], self.velocity[2 * s.node + 1]];
+        }
+    }
+
+    fn move_points(&self, field: &mut VelocityField) {
+        let law = field.bodies[0].law;
+        let mut number = 0;
+        for band in &mut field.bands {
+            let mut smallest = f64::INFINITY;
+            for i in 0..band.points[0].len() {
+                let p = &self.points[number];
+                number += 1;
+                let (mut moved, mut faster) = ([0.0; 2], [0.0; 2]);
+                let mut slope = [0.0; 4];
+                for k in 0..9 {
+                    let (w, g, node) = (p.weight[k], p.gradient[k], 2 * p.nodes[k] as usize);
+                    let d = [self.displacement[node], self.displacement[node + 1]];
+                    for e in 0..2 {
+                        moved[e] += w * d[e];
+                        faster[e] += w * (self.velocity[node + e] - self.start[node + e]);
+                    }
+                    slope[0] += g[0] * d[0];
+                    slope[1] += g[1] * d[0];
+                    slope[2] += g[0] * d[1];
+                    slope[3] += g[1] * d[1];
+                }
+                let increment = Increment {
+                    xx: slope[0],
+                    yy: slope[3],
+                    xy: 0.5 * (slope[1] + slope[2]),
+                    spin: 0.5 * (slope[2] - slope[1]),
+                };
+                let base = &p.base;
+                let mut state = base.state;
+                law.update(&mut state, &increment);
+                let volume_ratio = law.volume_ratio(&state, base.volume_ratio, &increment);
+                smallest = smallest.min(volume_ratio);
+                let point = Particle {
+                    id: base.id,
+                    x: [base.x[0] + moved[0], base.x[1] + moved[1]],
+                    v: [base.v[0] + faster[0], base.v[1] + faster[1]],
+                    state,
+                    volume_ratio,
+                };
+                band.points[0].set(i, &point);
+            }
+            band.sums.min_volume_ratio = smallest;
+        }
+    }
+
+    pub(super) fn nodal_kinetic(&self) -> f64 {
+        let pairs = self.mass.iter().zip(self.velocity.chunks_exact(2));
+        pairs.map(|(m, v)| 0.5 * m * (v[0] * v[0] + v[1] * v[1])).sum()
+    }
+
+    pub(super) fn point_kinetic(&self, field: &VelocityField) -> f64 {
+        let m = field.bodies[0].point_mass;
+        let points = field.bands.iter().flat_map(|b| b.points[0].iter());
+        points.map(|p| 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1])).sum()
+    }
+}

@@ -1,0 +1,158 @@
+use crate::boundary::{Boundary, Friction};
+use crate::contact::rule::ContactRule;
+use crate::simulation::{PicShare, Simulation};
+use crate::verification::Fault;
+use crate::verification::scene::{Brick, Material, scene};
+use nalgebra::Vector2;
+
+const H: f64 = 0.02;
+
+/// A wall of 0.1 m by 0.3 m above its clamp, and a soft block that runs against it.
+fn wall_and_block(young: f64, implicit: bool, speed: f64) -> Simulation {
+    let (soft, stiff) = (Material::new(1e6, 0.3, 1500.0), Material::new(young, 0.2, 2400.0));
+    let wall = Brick::new([0.4, -2.0 * H], [5, 17], H);
+    let block = Brick::new([0.27, 0.0], [6, 6], H);
+    let plane =
+        |name: &str, x: [f64; 2], friction| Boundary::plane(name, Vector2::from(x), Vector2::new(0.0, 1.0), friction);
+    let clamp = plane("clamp", [0.4, 0.0], Friction::Bonded).only_for(&[0]);
+    let bed = plane("bed", [0.0, 0.0], Friction::Coulomb(0.3)).only_for(&[1]);
+    let mut scene = scene(&wall, stiff.law(&Fault::NONE), stiff.density, wall.points(), vec![clamp, bed]);
+    scene.bodies[0].0.weightless = true;
+    scene.bodies[0].0.implicit = implicit;
+    let mut moving = block.points();
+    moving.iter_mut().for_each(|p| p.v = [speed, 0.0]);
+    scene.bodies.push((block.body(soft.law(&Fault::NONE), soft.density), moving));
+    scene.contacts = vec![ContactRule::with_structure(0, 1, 0.4)];
+    scene.gravity = [0.5, -9.81];
+    scene.numerics.pic = PicShare::Rate(2.0);
+    Simulation::new(scene)
+}
+
+/// What an impact does: impulse on the wall and largest mean force over 2 ms, along x; largest deflection of the wall's points;
+/// largest residuals of momentum and energy, over the sum of impulses and the first energy; steps.
+struct Impact {
+    impulse: f64,
+    peak: f64,
+    deflection: f64,
+    residual: [f64; 2],
+    steps: u64,
+}
+
+fn impact(mut sim: Simulation) -> Impact {
+    let start: std::collections::BTreeMap<u32, f64> = sim.points_of(0).map(|p| (p.id, p.x[0])).collect();
+    let mut found = Impact { impulse: 0.0, peak: 0.0, deflection: 0.0, residual: [0.0; 2], steps: 0 };
+    let (opening, mut window) = (*sim.opening(), [0.0; 2]);
+    let initial = opening.kinetic;
+    while sim.time() < 0.06 {
+        sim.step().expect("a step");
+        let p = -sim.contact_tallies().map(|t| t.exchange.impulse[0]).sum::<f64>();
+        found.impulse += p;
+        window = [window[0] + p, window[1] + sim.time_step().dt];
+        if window[1] > 0.002 {
+            found.peak = found.peak.max(window[0] / window[1]);
+            window = [0.0; 2];
+        }
+        let moved = sim.points_of(0).map(|p| p.x[0] - start[&p.id]).fold(0.0, f64::max);
+        found.deflection = found.deflection.max(moved);
+        let now = sim.stock();
+        let given = sim.ledger().impulse();
+        let left = [0, 1].map(|d| now.momentum[d] - opening.momentum[d] - given[d]);
+        let momentum = Vector2::from(left).norm() / sim.ledger().impulse_scale;
+        let energy = sim.energy_balance(&now, [0.0; 2]).residual.abs() / initial;
+        found.residual = [found.residual[0].max(momentum), found.residual[1].max(energy)];
+    }
+    found.steps = sim.steps();
+    found
+}
+
+#[test]
+fn a_stiff_wall_takes_the_same_impact_in_implicit_steps() {
+    for (young, tolerance) in [(2e7, 0.05), (2e8, 0.05)] {
+        let plain = impact(wall_and_block(young, false, 2.0));
+        let implicit = impact(wall_and_block(young, true, 2.0));
+        let compare = |a: f64, b: f64| a / b - 1.0;
+        let errors = [
+            compare(implicit.impulse, plain.impulse),
+            compare(implicit.peak, plain.peak),
+            compare(implicit.deflection, plain.deflection),
+        ];
+        println!(
+            "{young:e} Pa: impulse, peak, deflection off by {errors:.4?}; residuals {:?} and {:?}; {} and {} steps",
+            implicit.residual, plain.residual, implicit.steps, plain.steps
+        );
+        assert!(errors.iter().all(|e| e.abs() < tolerance), "{young:e}: {errors:?}");
+        assert!(implicit.residual[0] < 1e-11, "momentum: {:e}", implicit.residual[0]);
+        assert!(implicit.residual[1] < 0.02, "energy: {:e}", implicit.residual[1]);
+        assert!(implicit.steps * 2 < plain.steps, "{} {}", implicit.steps, plain.steps);
+    }
+}
+
+#[test]
+fn stiffness_does_not_shorten_the_step() {
+    let steps = [2e8, 2e11].map(|young| {
+        let mut sim = wall_and_block(young, true, 2.0);
+        while sim.time() < 0.03 {
+            sim.step().expect("a step");
+        }
+        sim.steps()
+    });
+    assert!(steps[0].abs_diff(steps[1]) * 20 < steps[0], "{steps:?}");
+}
+
+#[test]
+fn the_same_bits_for_any_number_of_threads() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            let mut sim = wall_and_block(2e9, true, 2.0);
+            while sim.time() < 0.02 {
+                sim.step().expect("a step");
+            }
+            sim.particles().map(|(_, p)| p.x[0].to_bits() ^ p.v[1].to_bits()).collect::<Vec<_>>()
+        })
+    };
+    assert!(run(1) == run(3));
+}
+
+#[test]
+fn a_free_swing_keeps_its_period_and_energy() {
+    // Pushed at its tip by an initial velocity that grows with the height; nothing touches it.
+    let swing = |implicit: bool| {
+        let mut sim = wall_and_block(2e7, implicit, 0.0);
+        let tip = |sim: &Simulation| {
+            let top = sim.points_of(0).filter(|p| p.id >= 330);
+            top.fold((0.0, 0.0), |(s, n), p| (s + p.x[0], n + 1.0))
+        };
+        for field in &mut sim.fields {
+            for band in &mut field.bands {
+                for i in 0..band.points[0].len() {
+                    let mut p = band.points[0].iter().nth(i).expect("a point");
+                    if field.members == [0] {
+                        p.v = [0.3 * p.x[1].max(0.0), 0.0];
+                        band.points[0].set(i, &p);
+                    }
+                }
+            }
+        }
+        (0..sim.fields.len()).for_each(|k| sim.sort(k));
+        sim.measure_speeds();
+        sim.open_ledger();
+        let (first, count) = tip(&sim);
+        let mut crossings = Vec::new();
+        let (mut before, mut largest) = ((sim.time(), 0.0), 0.0f64);
+        while crossings.len() < 5 {
+            sim.step().expect("a step");
+            let w = (tip(&sim).0 - first) / count;
+            if before.1 * w < 0.0 {
+                crossings.push(before.0 + (sim.time() - before.0) * before.1 / (before.1 - w));
+            }
+            largest = largest.max(w.abs());
+            before = (sim.time(), w);
+        }
+        ((crossings[4] - crossings[0]) / 2.0, largest)
+    };
+    let (plain, implicit) = (swing(false), swing(true));
+    println!("period {:.5} and {:.5} s, amplitude {:.3e} and {:.3e} m", plain.0, implicit.0, plain.1, implicit.1);
+    assert!((implicit.0 / plain.0 - 1.0).abs() < 0.01, "{implicit:?} {plain:?}");
+    assert!((implicit.1 / plain.1 - 1.0).abs() < 0.03, "{implicit:?} {plain:?}");
+}
