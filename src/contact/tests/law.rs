@@ -51,6 +51,38 @@ fn impact_without_friction_is_that_of_newton() {
 }
 
 #[test]
+fn exchanges_add_up() {
+    let mut sum = Exchange { impulse: [1.0, 2.0], friction_work: 3.0, normal_work: 4.0 };
+    sum.add(&Exchange { impulse: [10.0, 20.0], friction_work: 30.0, normal_work: 40.0 });
+    assert_eq!(sum, Exchange { impulse: [11.0, 22.0], friction_work: 33.0, normal_work: 44.0 });
+}
+
+#[test]
+fn a_solution_does_not_depend_on_the_last() {
+    let mut rng = Lcg::new(23);
+    for bodies in [2, 2, 2, 2, 3, 4] {
+        let (sides, mut touches) = random(&mut rng, bodies);
+        let (mut first, mut second) = (sides.clone(), sides);
+        solve(&mut first, &mut touches);
+        let solved = touches.clone();
+        solve(&mut second, &mut touches);
+        assert_eq!((first, solved), (second, touches));
+    }
+}
+
+#[test]
+fn without_friction_nothing_sticks_even_where_nothing_slides() {
+    let mut sides = [side(1.0, [1.0, 0.0], [1.0, 0.0]), side(1.0, [0.0; 2], [0.0; 2])];
+    let mut touches = [Touch::new([0, 1], [1.0, 0.0], 0.0)];
+    solve(&mut sides, &mut touches);
+    assert_eq!(touches[0].state(), State::Slipping);
+    sides[0].velocity = [1.0, 3.0];
+    sides[1].velocity = [0.0, 1.0];
+    project(&mut sides, &touches);
+    assert_eq!(sides.map(|s| s.velocity), [[0.5, 3.0], [0.5, 1.0]]);
+}
+
+#[test]
 fn bodies_that_part_or_have_not_met_are_left_alone() {
     for (velocity, slack) in [([-0.1, 5.0], 0.0), ([0.0, 5.0], 0.0), ([0.3, 5.0], 0.3)] {
         let start = [side(1.0, velocity, velocity), side(2.0, [0.0; 2], [0.0; 2])];

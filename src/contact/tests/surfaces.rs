@@ -135,6 +135,15 @@ fn normals_of_straight_surfaces() {
 }
 
 #[test]
+fn regression_asks_where_points_are_and_not_how_many() {
+    let pair = Pair::new(0.4, 0.3, 0.0);
+    let (_, [a, b]) = pair.at([0, 0]);
+    let once = regression::normal(&a, &b, [0.0; 2], 1.0).expect("a normal");
+    let twice = regression::normal(&[&a[..], &a].concat(), &[&b[..], &b].concat(), [0.0; 2], 1.0).expect("a normal");
+    assert!((0..2).all(|d| (once[d] - twice[d]).abs() < 1e-12), "{once:?} {twice:?}");
+}
+
+#[test]
 fn regression_wants_two_clouds() {
     let x = [[0.1, 0.0], [0.2, 0.3]];
     assert_eq!(regression::normal(&x, &[], [0.0; 2], 1.0), None);
@@ -174,9 +183,11 @@ fn gaps_between_straight_surfaces() {
 }
 
 #[test]
-fn displacements_tell_approach_from_parting() {
+fn mean_positions_and_displacements_tell_approach_from_parting() {
     let sample = |u: f64| Sample { mass: 2.0, moment: [2.0 * u, 0.0], ..Sample::default() };
     let n = [1.0, 0.0];
+    let apart = separation::from_positions(&sample(0.1), &sample(0.3), n, TOUCHING, 0.2);
+    assert!((apart - (0.2 - 0.8 * 0.2)).abs() < 1e-15, "in cells of 0.2 m: {apart}");
     assert!((separation::from_displacements(&sample(0.1), &sample(0.3), n) - 0.2).abs() < 1e-15);
     assert!(separation::from_displacements(&sample(0.3), &sample(0.1), n) < 0.0);
     assert_eq!((separation::slack(-0.1, 0.5), separation::slack(0.1, 0.5)), (0.0, 0.2));
