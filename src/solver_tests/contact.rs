@@ -149,6 +149,7 @@ fn every_normal_finds_the_face_between_two_blocks() {
             }
             assert!((0..2).all(|d| (sum[d] - p[d]).abs() < 1e-12));
             assert_eq!(sim.ledger().contacts[0], tally);
+            assert!(close(sim.ledger().impulse_scale, p[0].abs() + p[1].abs()));
             books_balance(&sim);
         }
     }

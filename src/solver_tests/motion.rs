@@ -130,3 +130,60 @@ fn points_keep_their_number_and_are_counted_once() {
     }
     books_balance(&sim);
 }
+
+#[test]
+fn strained_material_takes_its_energy_along_when_it_leaves() {
+    // Under 3 kPa across the plane and at nine tenths of its volume: p^2/2E per volume.
+    let mut scene = block([5.0, -1.0], vec![]);
+    for p in &mut scene.bodies[0].1 {
+        p.state.stress = Stress { zz: -3000.0, ..Stress::default() };
+        p.volume_ratio = 0.9;
+    }
+    scene.gravity = [0.0, -2.0];
+    let energy = 3000.0f64.powi(2) / 2e5 * 0.9 * 0.12 * THICKNESS;
+    let mut sim = Simulation::new(scene.clone());
+    assert!(sim.node_count() >= 5 * 4);
+    assert!(close(sim.stock().elastic, energy) && close(sim.opening().elastic, energy));
+    // Energies count from the datum.
+    let balance = sim.energy_balance(&sim.stock(), [7.0, 0.05]);
+    assert!(close(balance.gravitational, sim.mass() * 2.0 * 0.1) && balance.residual.abs() < 1e-9, "{balance:?}");
+    assert!(close(balance.initial, balance.kinetic + balance.gravitational + energy));
+    sim.set_gravity([0.0; 2]);
+    sim.open_ledger();
+    let sim = {
+        let mut scene = scene;
+        scene.gravity = [0.0; 2];
+        scene.domain = [[-9.0, 0.5], [-9.0, 9.0]];
+        run(scene, 160)
+    };
+    let ledger = sim.ledger();
+    assert_eq!(sim.particle_count(), 0);
+    assert!(close(ledger.departed_energy, 0.5 * 12.0 * 26.0 * DENSITY * 0.01 * THICKNESS + energy));
+    assert!(close(ledger.internal_work, -energy));
+}
+
+#[test]
+fn all_impulses_count_in_the_scale_of_the_ledger() {
+    let base = Boundary::plane("base", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Coulomb(0.2));
+    let mut scene = block([0.5, -1.0], vec![base]);
+    scene.gravity = [1.5, -9.81];
+    let sim = run(scene, 1);
+    let [px, py] = sim.ledger().boundaries[0].impulse;
+    assert!(px < 0.0 && py > 0.0);
+    assert!(close(sim.ledger().impulse_scale, sim.mass() * (1.5 + 9.81) * DT - px + py));
+}
+
+#[test]
+fn stresses_do_the_work_that_is_stored() {
+    let mut scene = block([0.0; 2], vec![]);
+    scene.bodies[0].1.iter_mut().for_each(|p| p.v = [-0.3 * p.x[0], 0.1 * p.x[1]]);
+    scene.numerics.scheme = crate::simulation::Scheme::Usl;
+    let mut sim = run(scene, 10);
+    let (stored, work) = (sim.stock().elastic, sim.ledger().internal_work);
+    assert!(stored > 1e-4 && (work / stored - 1.0).abs() < 0.02, "{work} {stored}");
+    // From now on with PIC alone, which takes kinetic energy at once.
+    assert_eq!(sim.ledger().pic_loss, 0.0);
+    sim.set_pic(crate::simulation::PicShare::Fraction(1.0));
+    sim.step().unwrap();
+    assert!(sim.ledger().pic_loss > 0.0);
+}
