@@ -109,6 +109,7 @@ fn bands_share_out_points_and_nodes() {
             owned += band.owned();
             let points: Vec<Particle> = band.points[0].iter().collect();
             seen += points.len();
+            assert!(!band.is_empty() && band.len() == points.len());
             let starts: Vec<[i64; 2]> = points.iter().map(|p| starts[&p.id]).collect();
             assert!(starts.is_sorted(), "by column, then by row");
             // Columns where stencils may start: one beside the band's first node, up to the next band's.
@@ -153,5 +154,6 @@ fn what_is_outside_departs() {
     let gone: Vec<_> = departed.iter().map(|d| (d.body, d.particle.id, d.particle.x)).collect();
     assert_eq!(gone, [(0, 2, places[2]), (0, 4, places[4]), (0, 5, places[5]), (0, 6, places[6])]);
     let nothing = sorted(&[], EVERYWHERE);
+    assert!(nothing.bands.iter().all(Band::is_empty));
     assert_eq!((nothing.grid.len(), nothing.bands.iter().map(Band::len).sum::<usize>()), (0, 0));
 }

@@ -128,6 +128,12 @@ fn volumes_follow_the_volumetric_strain() {
     near(ratio, 1.25);
     near(neo.stored_energy(&state) * ratio, work * 0.5 * (1.0 + ratio));
     assert!(work > 0.0);
+    // Half of the way back gives back the difference.
+    let stored = neo.stored_energy(&state) * 1.25;
+    let back = neo.update(&mut state, &Increment { xx: -0.1, ..Increment::default() });
+    let left = neo.stored_energy(&state) * 1.125;
+    near(back * 0.5 * (1.25 + 1.125), left - stored);
+    assert!(back < 0.0 && left > 0.0);
 }
 
 #[test]
