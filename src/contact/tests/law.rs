@@ -324,3 +324,43 @@ fn a_corner_of_floor_and_contact_for_any_masses() {
         assert!(sides[1].velocity[1] > -1e-6 * scale);
     }
 }
+
+#[test]
+fn solutions_scale_with_the_velocities() {
+    let mut rng = Lcg::new(29);
+    let scale = 2f64.powi(-40);
+    for _ in 0..20 {
+        let (mut sides, mut touches) = random(&mut rng, 3);
+        let mut slow: Vec<Side> = sides.clone();
+        for s in &mut slow {
+            (s.old, s.velocity) = (s.old.map(|v| scale * v), s.velocity.map(|v| scale * v));
+        }
+        solve(&mut sides, &mut touches);
+        solve(&mut slow, &mut touches);
+        for (s, t) in sides.iter().zip(&slow) {
+            assert_eq!(s.velocity.map(|v| scale * v), t.velocity);
+        }
+    }
+}
+
+#[test]
+fn projection_visits_every_pair_of_a_row_often_enough() {
+    let mut sides = [3.0, 0.0, -2.0].map(|v| side(1.0, [v, 0.0], [v, 0.0]));
+    let mut touches = [Touch::new([0, 1], [1.0, 0.0], 1.0), Touch::new([1, 2], [1.0, 0.0], 1.0)];
+    solve(&mut sides, &mut touches);
+    for (s, v) in sides.iter_mut().zip([1.0, 0.0, 0.0]) {
+        s.velocity = [v, 0.0];
+    }
+    project(&mut sides, &touches);
+    assert!(sides.iter().all(|s| (s.velocity[0] - 1.0 / 3.0).abs() < 0.01), "{sides:?}");
+}
+
+#[test]
+fn projection_leaves_an_approach_that_closes_the_gap() {
+    let mut sides = [side(1.0, [1.0, 0.0], [1.0, 0.0]), side(1.0, [0.0; 2], [0.0; 2])];
+    let mut touches = [Touch::new([0, 1], [1.0, 0.0], 0.0).with_slack(0.4)];
+    solve(&mut sides, &mut touches);
+    (sides[0].velocity, sides[1].velocity) = ([0.9, 0.0], [0.1, 0.0]);
+    project(&mut sides, &touches);
+    assert!((sides[0].velocity[0] - sides[1].velocity[0] - 0.4).abs() < 1e-15, "{sides:?}");
+}

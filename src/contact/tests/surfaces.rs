@@ -212,3 +212,18 @@ fn extents_of_a_stretched_domain() {
     assert!((radius(0.5, finger, [r, r]) - 1.0).abs() < 1e-15);
     assert!((radius(0.5, finger, [r, -r]) - 0.5).abs() < 1e-15);
 }
+
+#[test]
+fn the_larger_body_decides_and_normals_point_out_of_the_first() {
+    let sample = |volume: f64, gradient: Vector| Sample { volume, gradient, mass: 2.0, ..Sample::default() };
+    let large =
+        |a: f64, b: f64| from_gradients(GradientRule::Larger, &sample(a, [3.0, 0.0]), &sample(b, [0.0, -4.0]), 0.1);
+    assert_eq!(large(2.0, 1.0), Some([1.0, 0.0]));
+    assert_eq!(large(1.0, 2.0), Some([0.0, 1.0]));
+    let both = from_gradients(GradientRule::Average, &sample(2.0, [3.0, 0.0]), &sample(1.0, [0.0, -4.0]), 0.1);
+    assert_eq!(both, Some([0.6, 0.8]));
+    assert_eq!(from_gradients(GradientRule::Average, &sample(2.0, [0.05, 0.0]), &sample(2.0, [0.0; 2]), 0.1), None);
+    let at = |x: Vector| Sample { mass: 2.0, moment: x.map(|x| 2.0 * x), ..Sample::default() };
+    assert_eq!(from_positions(&at([1.0, 1.0]), &at([4.0, 5.0])), Some([0.6, 0.8]));
+    assert_eq!(from_positions(&at([1.0, 1.0]), &at([1.0, 1.0])), None);
+}
