@@ -3,6 +3,7 @@
 use super::*;
 use crate::body::Particle;
 use crate::constitutive::Stress;
+use crate::shape::ShapeFunction;
 use crate::simulation::{AccelerationField, PicShare, Scheme};
 use crate::verification::scene::{Lcg, THICKNESS, points_by_number};
 use std::sync::Arc;
@@ -55,9 +56,12 @@ fn damping_takes_its_share_of_the_momentum_in_every_step() {
 #[test]
 fn a_uniform_field_is_gravity() {
     let g = [1.5, -7.0];
-    for scheme in [Scheme::Usf, Scheme::Usl, Scheme::Musl] {
+    let schemes = [Scheme::Usf, Scheme::Usl, Scheme::Musl];
+    let shapes = [ShapeFunction::Linear, ShapeFunction::Ugimp, ShapeFunction::Bspline];
+    for (scheme, shape) in schemes.into_iter().flat_map(|scheme| shapes.map(|shape| (scheme, shape))) {
         let mut with_gravity = block([0.5, 0.2], vec![]);
         with_gravity.numerics.scheme = scheme;
+        with_gravity.numerics.shape = shape;
         let mut with_field = Simulation::new(with_gravity.clone());
         with_gravity.gravity = g;
         with_field.set_field(Some(AccelerationField(Arc::new(move |_, _| g))));
