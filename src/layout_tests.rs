@@ -50,6 +50,12 @@ fn clouds() -> Vec<Vec<[f64; 2]>> {
         cloud(40, [-9.0, -9.0], [30.0, 12.0]),
         cloud(257, [0.0, 0.0], [0.2, 0.2]),
         cloud(1, [-1.0, 1.0], [1.0, 1.0]),
+        // As many points in each column as make a band.
+        cloud(5000, [0.0, 0.0], [2.0, 9.0]),
+        // A rest of few points, of few columns, of enough of both, which joins the last band or makes one.
+        [cloud(256, [0.0, 0.0], [0.5, 0.5]), cloud(100, [0.9, 0.0], [0.8, 0.5])].concat(),
+        [cloud(256, [0.0, 0.0], [0.5, 0.5]), cloud(200, [0.65, 0.0], [0.2, 0.5])].concat(),
+        [cloud(256, [0.0, 0.0], [0.5, 0.5]), cloud(200, [0.9, 0.0], [0.8, 0.5])].concat(),
     ]
 }
 
@@ -128,6 +134,15 @@ fn bands_share_out_points_and_nodes() {
             } else if k > 0 {
                 assert!(points.len() >= BAND_POINTS / 2);
                 assert!(grid.columns.len() - column_of(&grid, band.first_node) >= MIN_COLUMNS + PAST as usize + DRIFT);
+            }
+            if k == last {
+                // The rest after a possible cut is too small for a band.
+                let cut = (first + MIN_COLUMNS as i64..)
+                    .find(|&c| starts.iter().filter(|s| s[0] < c).count() >= BAND_POINTS.min(starts.len()));
+                let cut = cut.expect("all points lie somewhere");
+                let rest = starts.iter().filter(|s| s[0] >= cut).count();
+                let columns = starts.last().expect("a point")[0] + 1 - cut;
+                assert!(rest < BAND_POINTS / 2 || columns < MIN_COLUMNS as i64, "{rest} {columns}");
             }
             let reach = band.nodes.sums.len();
             assert!(k < last || band.first_node + reach == grid.len() && reach == band.owned());

@@ -288,3 +288,29 @@ fn dilatancy_fills_what_is_open_before_it_presses() {
     near(narrow.stress.xy / (0.75 * law.friction * bulk * gained), 1.0);
     near(narrow.plastic_shear, (2.0 * shear * 0.01 - narrow.stress.xy) / (shear * 3f64.sqrt()));
 }
+
+#[test]
+fn open_cemented_material_shears_without_tension() {
+    let law = plastic(Cone::PlaneStrain, 1e4, 2e3, true);
+    let (bulk, shear) = (law.elastic.bulk, law.elastic.shear);
+    let d = Increment { xy: 0.02, ..Increment::default() };
+    let multiplier = (2.0 * shear * 0.02 - law.cohesion) / (shear + bulk * law.friction * law.dilatancy);
+    let gained = law.dilatancy * multiplier;
+    // What stays open would close under less tension than the cut-off.
+    let opened = gained + 1e3 / bulk;
+    let mut state = at(Stress::default(), opened);
+    law.update(&mut state, &d);
+    near(state.opened / (opened - gained), 1.0);
+    assert!(state.stress.mean().abs() < 1e-9, "{state:?}");
+    near(state.stress.xy / law.cohesion, 1.0);
+}
+
+#[test]
+fn pressure_without_shear_stays() {
+    let law = plastic(Cone::PlaneStrain, 0.0, 0.0, true);
+    for p in [0.0, 1e3] {
+        let mut state = at(pressure(p), 0.0);
+        assert_eq!(law.update(&mut state, &Increment::default()), 0.0);
+        assert_eq!(state, at(pressure(p), 0.0));
+    }
+}

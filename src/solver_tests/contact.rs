@@ -22,6 +22,10 @@ fn in_two(mut scene: Scene, rule: ContactRule, first: impl Fn(&Particle) -> bool
     scene
 }
 
+/// A part of the block below, and the normal out of it.
+type Cut = (fn(&Particle) -> bool, [f64; 2]);
+const CUTS: [Cut; 2] = [(|p| p.x[1] < 0.3, [0.0, 1.0]), (|p| p.x[0] < 4.0, [1.0, 0.0])];
+
 /// A block that is compressed by its own motion, to the left and down, and wide enough for several bands.
 fn squeezed(scheme: Scheme, boundaries: Vec<Boundary>) -> Scene {
     let brick = Brick::new([0.0; 2], [80, 6], H);
@@ -49,13 +53,11 @@ fn forced(scene: Scene) -> Simulation {
 fn two_halves_that_stick_are_one_body() {
     let floor = || Boundary::plane("floor", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Coulomb(0.3));
     let clamp = || Boundary::plane("clamp", Vector2::new(0.15, 0.0), Vector2::new(1.0, 0.0), Friction::Bonded);
-    type Cut = (fn(&Particle) -> bool, [f64; 2]);
-    let cuts: [Cut; 2] = [(|p| p.x[1] < 0.3, [0.0, 1.0]), (|p| p.x[0] < 4.0, [1.0, 0.0])];
     for scheme in [Scheme::Usl, Scheme::Musl] {
         for boundaries in [vec![], vec![floor()], vec![clamp()]] {
             let whole = forced(squeezed(scheme, boundaries.clone()));
             let expected = points_by_number(&whole);
-            for (cut, normal) in cuts {
+            for (cut, normal) in CUTS {
                 let stick = rule(f64::INFINITY, NormalRule::Prescribed(normal), GapRule::Approach);
                 let halves = forced(in_two(squeezed(scheme, boundaries.clone()), stick, cut));
                 assert!(halves.contact_points().len() > 3);
@@ -181,7 +183,6 @@ fn friction_takes_its_share_of_the_pressure_and_can_be_changed() {
 fn what_a_clamped_body_takes_goes_into_the_clamp() {
     let mut scene = impact([1.0, 0.0], 0.0, 0, rule(0.0, NormalRule::NearestFace(1), GapRule::Extents));
     let clamp = Boundary::plane("clamp", Vector2::new(0.5, 0.0), Vector2::new(-1.0, 0.0), Friction::Bonded);
-    let clamp = Boundary { travel: Vector2::zeros(), ..clamp };
     let near = Boundary::plane("near", Vector2::new(-1.0, 0.0), Vector2::new(-1.0, 0.0), Friction::Bonded);
     scene.boundaries = vec![clamp, near.only_for(&[1])];
     let sim = run(scene, 1);
@@ -198,9 +199,8 @@ fn what_a_clamped_body_takes_goes_into_the_clamp() {
 fn bodies_that_part_move_as_if_they_were_alone() {
     // Side walls, damping, a field, gravity and a floor with friction, but nothing between the bodies.
     let floor = || Boundary::plane("floor", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Coulomb(0.3));
-    let cuts: [(fn(&Particle) -> bool, [f64; 2]); 2] = [(|p| p.x[1] < 0.3, [0.0, 1.0]), (|p| p.x[0] < 4.0, [1.0, 0.0])];
     for scheme in [Scheme::Usf, Scheme::Usl, Scheme::Musl] {
-        for (cut, n) in cuts {
+        for (cut, n) in CUTS {
             let mut both = squeezed(scheme, vec![floor()]);
             both.numerics.pic = PicShare::Fraction(0.1);
             both.side_wall_friction = 0.2;

@@ -187,3 +187,38 @@ fn stresses_do_the_work_that_is_stored() {
     sim.step().unwrap();
     assert!(sim.ledger().pic_loss > 0.0);
 }
+
+#[test]
+fn a_floor_stops_every_column_alike() {
+    // Wide enough for several bands.
+    let floor = Boundary::plane("floor", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Smooth);
+    let brick = Brick::new([0.0; 2], [120, 4], H);
+    let mut points = brick.points();
+    points.iter_mut().for_each(|p| p.v = [0.0, -1.0]);
+    let sim = run(scene(&brick, law(), DENSITY, points, vec![floor]), 1);
+    let points = points_by_number(&sim);
+    assert!(points[0].v[1] > -0.5);
+    for (k, p) in points.iter().enumerate() {
+        assert!((p.v[1] - points[k - k % 240].v[1]).abs() < 1e-12, "{p:?}");
+    }
+}
+
+#[test]
+fn musl_strains_with_the_velocities_that_points_have_after_the_update() {
+    // Usf does so with those that they have at the start of a step, before anything moves.
+    use crate::simulation::Scheme;
+    let mut before = block([0.0; 2], vec![]);
+    before.bodies[0].1.iter_mut().for_each(|p| p.v = [-3.0 * p.x[0] * p.x[1], 2.0 * p.x[0] * p.x[0]]);
+    before.numerics.pic = crate::simulation::PicShare::Fraction(0.5);
+    let mut after = before.clone();
+    let musl = points_by_number(&run(before, 1));
+    after.numerics.scheme = Scheme::Usf;
+    for (p, new) in after.bodies[0].1.iter_mut().zip(&musl) {
+        p.v = new.v;
+    }
+    for (a, b) in musl.iter().zip(points_by_number(&run(after, 1))) {
+        let (s, t) = (a.state.stress, b.state.stress);
+        assert!((s.xx - t.xx).abs() + (s.yy - t.yy).abs() + (s.xy - t.xy).abs() < 1e-9, "{a:?} {b:?}");
+        assert!(s.xy != 0.0);
+    }
+}
