@@ -102,6 +102,6 @@ mod tests {
             assert!((found.deepest - 0.01).abs() < 1e-9 && found.mass_beyond == 0.0, "{corner:?}: {found:?}");
         }
         assert_eq!(measured([-0.2, 0.4]), Penetration::default());
-        assert_eq!(measured([-0.102, 0.4]), Penetration::default(), "near and not inside");
+        assert_eq!(measured([-0.095, -0.095]), Penetration::default(), "beside the corner and not inside");
     }
 }
