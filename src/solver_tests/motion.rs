@@ -225,3 +225,17 @@ fn musl_strains_with_the_velocities_that_points_have_after_the_update() {
         assert!(s.xy != 0.0);
     }
 }
+
+#[test]
+fn stresses_turn_with_the_material() {
+    // A turn by 0.05 rad, counter-clockwise, about the middle.
+    let mut scene = block([0.0; 2], vec![]);
+    for p in &mut scene.bodies[0].1 {
+        p.v = [-5.0 * (p.x[1] - 0.15), 5.0 * (p.x[0] - 0.2)];
+        p.state.stress = Stress { xx: 1000.0, yy: -1000.0, ..Stress::default() };
+    }
+    let sim = run(scene, 10);
+    for (_, p) in sim.particles().filter(|(_, p)| (p.x[0] - 0.2).abs() < 0.06 && (p.x[1] - 0.15).abs() < 0.06) {
+        assert!((p.state.stress.xy - 1000.0 * libm::sin(0.1)).abs() < 10.0, "{p:?}");
+    }
+}
