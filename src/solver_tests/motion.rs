@@ -232,10 +232,12 @@ fn stresses_turn_with_the_material() {
     let mut scene = block([0.0; 2], vec![]);
     for p in &mut scene.bodies[0].1 {
         p.v = [-5.0 * (p.x[1] - 0.15), 5.0 * (p.x[0] - 0.2)];
-        p.state.stress = Stress { xx: 1000.0, yy: -1000.0, ..Stress::default() };
+        p.state.stress = Stress { xx: 10.0, yy: -10.0, ..Stress::default() };
     }
+    // So soft that it does not answer.
+    scene.bodies[0].0.law = AnyLaw::LinearElastic(LinearElastic::new(10.0, 0.0));
     let sim = run(scene, 10);
     for (_, p) in sim.particles().filter(|(_, p)| (p.x[0] - 0.2).abs() < 0.06 && (p.x[1] - 0.15).abs() < 0.06) {
-        assert!((p.state.stress.xy - 1000.0 * libm::sin(0.1)).abs() < 10.0, "{p:?}");
+        assert!((p.state.stress.xy - 10.0 * libm::sin(0.1)).abs() < 0.05, "{p:?}");
     }
 }
