@@ -19,7 +19,7 @@ pub struct Run {
     pub ended: String,
     /// Values of what varied, by column.
     pub set: BTreeMap<String, String>,
-    numbers: BTreeMap<&'static str, f64>,
+    pub(super) numbers: BTreeMap<&'static str, f64>,
 }
 
 impl Run {
