@@ -245,3 +245,7 @@ fn domain_corner(rules: &SortRules) -> [i64; 2] {
     };
     [index(0), index(1)]
 }
+
+#[cfg(test)]
+#[path = "layout_tests.rs"]
+mod tests;

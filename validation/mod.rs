@@ -6,6 +6,7 @@
 //! many runs are recorded in `runs/*.csv` of their folder; from the record, their analysis takes seconds, and
 //! [`Context::studies`] makes the record anew.
 
+pub mod barrier;
 pub mod column;
 pub mod data;
 #[cfg(test)]
@@ -98,6 +99,7 @@ pub const VALIDATIONS: &[Validation] = &[
     flume::sensitivity::VALIDATION,
     flume::calibration::VALIDATION,
     flume::verdict::VALIDATION,
+    barrier::VALIDATION,
     column::LEVEL,
     column::SLOPE,
 ];

@@ -60,6 +60,7 @@ validations!(
     flume_sensitivity,
     flume_calibration,
     flume_verdict,
+    barrier_rigid,
     column_level,
     column_slope
 );

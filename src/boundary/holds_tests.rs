@@ -56,3 +56,22 @@ fn walls_without_a_base_end_at_their_foot() {
     assert_eq!(holds_at([0.0, -0.5], &[wall[0].clone(), base(-0.5)]).len(), 2);
     assert_eq!(holds_at([0.0, -0.5], &[wall[0].clone(), base(0.0)]).len(), 2);
 }
+
+#[test]
+fn small_grids_have_small_tolerances_and_arms_begin_at_the_foot() {
+    let h = 1e-4;
+    let wall = Boundary::wall("wall", Vector2::new(0.5, 0.25), Vector2::new(0.0, 1.0), 10.0 * h, h, Friction::Smooth);
+    let mut grid = ActiveGrid {
+        corner: [0.5 - h, 0.25 + h],
+        spacing: h,
+        inverse_spacing: 1.0 / h,
+        columns: (0..2).map(|c| Column { start: c, row: 0, rows: 1 }).collect(),
+        ..ActiveGrid::default()
+    };
+    grid.index_columns();
+    let mut holds = Vec::new();
+    find_holds(&[wall], &[0], &grid, &mut holds);
+    let [hold] = &holds[..] else { panic!("the node on the face and not the one before it: {holds:?}") };
+    assert_eq!(hold.node, 1);
+    assert!(hold.arm[0].abs() < 1e-12 && (hold.arm[1] - h).abs() < 1e-12, "{hold:?}");
+}

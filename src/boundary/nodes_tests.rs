@@ -254,3 +254,36 @@ fn strain_velocities_in_a_corner_enter_neither_side() {
     project(&holds, &mut field);
     assert!(field[1] >= -1e-12 && c * (field[1] - field[0]) >= -0.1, "{field:?}");
 }
+
+#[test]
+fn projection_into_a_wedge_leaves_by_neither_face() {
+    // Faces at 70 degrees to each other: what one takes away the other gives back in part.
+    let (c, s) = (libm::cos(1.2), libm::sin(1.2));
+    let wedge = [plane([0.0, 1.0], Friction::Smooth), plane([s, -c], Friction::Smooth)];
+    let mut holds = holds_at([0.0, 0.0], &wedge);
+    let mut tallies = [Tally::default(); 2];
+    let mut v = [-1.0, -0.2];
+    solve(&mut holds, &wedge, M, v, &mut v, &mut tallies);
+    let mut v = [-1.0, -0.2];
+    project(&holds, &mut v);
+    assert!(v[1] > -0.01 && v[0] * s - v[1] * c > -0.01, "{v:?}");
+}
+
+#[test]
+fn a_clamp_prescribes_its_velocity_while_it_is_closed() {
+    let gate = |friction| {
+        let wall = Boundary::wall("gate", Vector2::zeros(), Vector2::new(0.0, 1.0), 1.0, 1.0, friction);
+        Boundary { velocity: Vector2::new(0.1, 0.2), ..wall.gate(Opening::Vanish) }
+    };
+    let held = |boundary: &Boundary| holds_at([0.0, 0.5], std::slice::from_ref(boundary))[0];
+    let mut clamp = gate(Friction::Bonded);
+    let hold = held(&clamp);
+    assert_eq!(hold.clamped(std::slice::from_ref(&clamp)), Some([0.1, 0.2]));
+    clamp.release();
+    assert_eq!(hold.clamped(&[clamp]), None);
+    let mut rough = gate(Friction::Rough);
+    let hold = held(&rough);
+    assert_eq!(hold.clamped(std::slice::from_ref(&rough)), None);
+    rough.release();
+    assert_eq!(hold.clamped(&[rough]), None);
+}

@@ -182,3 +182,6 @@ impl Law for AnyLaw {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -83,4 +83,25 @@ mod tests {
             assert!((found.mass_beyond - beyond * 2.0 * mass).abs() < 1e-12, "{gap}: {found:?}");
         }
     }
+
+    #[test]
+    fn points_that_barely_enter_are_found_on_every_side() {
+        let (material, h) = (Material::new(1e6, 0.0, 1000.0), 0.1);
+        let law = material.law(&Fault::NONE);
+        let wall = Brick::new([0.0, 0.0], [4, 10], h);
+        let outline = Outline::trace(&wall.points().iter().map(|p| (p.id, p.x)).collect::<Vec<_>>(), 0.05, 0.0);
+        let measured = |corner: [f64; 2]| {
+            let other = Brick::new(corner, [1, 1], h);
+            let mut scene = scene(&wall, law, material.density, wall.points(), vec![]);
+            scene.bodies.push((other.body(law, material.density), other.points()));
+            measure(&Simulation::new(scene), 0, &outline, 0.0)
+        };
+        // The middles of the nearest points are 15 mm outside of the surface, and 40 mm outside of the ring.
+        for corner in [[-0.09, 0.4], [0.39, 0.4], [0.1, -0.09], [0.1, 0.99]] {
+            let found = measured(corner);
+            assert!((found.deepest - 0.01).abs() < 1e-9 && found.mass_beyond == 0.0, "{corner:?}: {found:?}");
+        }
+        assert_eq!(measured([-0.2, 0.4]), Penetration::default());
+        assert_eq!(measured([-0.095, -0.095]), Penetration::default(), "beside the corner and not inside");
+    }
 }

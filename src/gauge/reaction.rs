@@ -111,6 +111,23 @@ mod tests {
     }
 
     #[test]
+    fn the_first_of_equal_peaks_counts() {
+        let mut gauge = ReactionGauge::new();
+        gauge.add([3.0, 4.0], -2.0, 0.25, 1.0);
+        gauge.add([4.0, -3.0], 2.0, 0.25, 2.0);
+        assert_eq!(
+            (gauge.peak_force(), gauge.peak_moment()),
+            (Peak { value: 20.0, time: 1.0 }, Peak { value: -8.0, time: 1.0 })
+        );
+        // The same impulses in a shorter step are larger forces.
+        gauge.add([3.0, 4.0], 2.0, 0.125, 3.0);
+        assert_eq!(
+            (gauge.peak_force(), gauge.peak_moment()),
+            (Peak { value: 40.0, time: 3.0 }, Peak { value: 16.0, time: 3.0 })
+        );
+    }
+
+    #[test]
     fn a_clamp_carries_weight_and_moment() {
         // A beam pushed across by a body force equal to a tenth of its weight.
         let (material, h) = (Material::new(1e6, 0.0, 1000.0), 0.025);

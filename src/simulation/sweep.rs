@@ -148,15 +148,21 @@ fn at<S>(bands: &mut [Band], k: usize, stage: &S, work: &impl Fn(&S, Option<&mut
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::Points;
     use std::sync::Mutex;
 
     const STAGES: &[(On, usize)] =
         &[(On::Points, 0), (On::Nodes, 1), (On::Points, 2), (On::Nodes, 3), (On::Points, 4), (On::Points, 5)];
 
     /// Runs one sweep, or several with a part of the stages each, on `bands` bands with `threads` threads and checks that every
-    /// stage finds done what it needs.
-    fn check(bands: usize, threads: usize, sweeps: &[&[(On, usize)]]) {
-        let mut all: Vec<Band> = (0..bands).map(|k| Band { first_node: k, ..Band::default() }).collect();
+    /// stage finds done what it needs. `load` gives the points of a band.
+    fn check(bands: usize, threads: usize, sweeps: &[&[(On, usize)]], load: fn(usize, usize) -> usize) {
+        let band = |k: usize| {
+            let mut points = Points::default();
+            points.resize(load(k, bands));
+            Band { first_node: k, points: vec![points], ..Band::default() }
+        };
+        let mut all: Vec<Band> = (0..bands).map(band).collect();
         let done = Mutex::new(vec![[false; 6]; bands]);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
@@ -190,8 +196,13 @@ mod tests {
         let parts: Vec<_> = STAGES.split_inclusive(|(on, _)| *on == On::Nodes).collect();
         for threads in 1..=5 {
             for bands in [0, 1, 2, 3, 5, 11, 12, 13, 30, 47] {
-                check(bands, threads, &[STAGES]);
-                check(bands, threads, &parts);
+                // No points, as many in each band, all at one end.
+                for load in
+                    [|_, _| 0, |_, _| 9, |k, _| if k == 0 { 99 } else { 0 }, |k, n| if k + 1 == n { 99 } else { 0 }]
+                {
+                    check(bands, threads, &[STAGES], load);
+                    check(bands, threads, &parts, load);
+                }
             }
         }
     }

@@ -3,19 +3,23 @@
 use super::*;
 use crate::body::Particle;
 use crate::constitutive::Stress;
+use crate::shape::ShapeFunction;
 use crate::simulation::{AccelerationField, PicShare, Scheme};
 use crate::verification::scene::{Lcg, THICKNESS, points_by_number};
 use std::sync::Arc;
 
 #[test]
 fn side_walls_brake_with_the_out_of_plane_pressure() {
-    // Friction mu p on two walls over the area V/b each: a = 2 mu p / (rho b), against the motion.
-    let (mu, p) = (0.3, 2000.0);
-    let rate = 2.0 * mu * p / (DENSITY * THICKNESS);
+    // Friction mu p on two walls over the area V/b each: a = 2 mu p / (rho b), against the motion; at 0.8 of the volume.
+    let (mu, p, ratio) = (0.3, 2500.0, 0.8);
+    let rate = 2.0 * mu * p * ratio / (DENSITY * THICKNESS);
     for (v, pressure, rate) in [([0.3, -0.4], p, rate), ([-0.5, 0.0], p, rate), ([0.3, 0.4], -p, 0.0)] {
         let mut scene = block(v, vec![]);
         scene.side_wall_friction = mu;
-        scene.bodies[0].1.iter_mut().for_each(|q| q.state.stress = Stress { zz: -pressure, ..Stress::default() });
+        for q in &mut scene.bodies[0].1 {
+            q.state.stress = Stress { zz: -pressure, ..Stress::default() };
+            q.volume_ratio = ratio;
+        }
         let sim = run(scene.clone(), 20);
         let left = 1.0 - rate * 20.0 * DT / 0.5;
         assert!(moves_with(&sim, [v[0] * left, v[1] * left]), "{v:?}");
@@ -55,9 +59,12 @@ fn damping_takes_its_share_of_the_momentum_in_every_step() {
 #[test]
 fn a_uniform_field_is_gravity() {
     let g = [1.5, -7.0];
-    for scheme in [Scheme::Usf, Scheme::Usl, Scheme::Musl] {
+    let schemes = [Scheme::Usf, Scheme::Usl, Scheme::Musl];
+    let shapes = [ShapeFunction::Linear, ShapeFunction::Ugimp, ShapeFunction::Bspline];
+    for (scheme, shape) in schemes.into_iter().flat_map(|scheme| shapes.map(|shape| (scheme, shape))) {
         let mut with_gravity = block([0.5, 0.2], vec![]);
         with_gravity.numerics.scheme = scheme;
+        with_gravity.numerics.shape = shape;
         let mut with_field = Simulation::new(with_gravity.clone());
         with_gravity.gravity = g;
         with_field.set_field(Some(AccelerationField(Arc::new(move |_, _| g))));

@@ -1,6 +1,7 @@
 //! Whole steps of the solver against closed forms that no rung of the ladder covers: side walls, damping, PIC rates, fields,
 //! gates, departures, failures.
 
+mod contact;
 mod failures;
 mod forces;
 mod motion;

@@ -130,3 +130,114 @@ fn points_keep_their_number_and_are_counted_once() {
     }
     books_balance(&sim);
 }
+
+#[test]
+fn strained_material_takes_its_energy_along_when_it_leaves() {
+    // Under 3 kPa across the plane and at nine tenths of its volume: p^2/2E per volume.
+    let mut scene = block([5.0, -1.0], vec![]);
+    for p in &mut scene.bodies[0].1 {
+        p.state.stress = Stress { zz: -3000.0, ..Stress::default() };
+        p.volume_ratio = 0.9;
+    }
+    scene.gravity = [0.0, -2.0];
+    let energy = 3000.0f64.powi(2) / 2e5 * 0.9 * 0.12 * THICKNESS;
+    let mut sim = Simulation::new(scene.clone());
+    assert!(sim.node_count() >= 5 * 4);
+    assert!(close(sim.stock().elastic, energy) && close(sim.opening().elastic, energy));
+    // Energies count from the datum.
+    let balance = sim.energy_balance(&sim.stock(), [7.0, 0.05]);
+    assert!(close(balance.gravitational, sim.mass() * 2.0 * 0.1) && balance.residual.abs() < 1e-9, "{balance:?}");
+    assert!(close(balance.initial, balance.kinetic + balance.gravitational + energy));
+    sim.set_gravity([0.0; 2]);
+    sim.open_ledger();
+    let sim = {
+        let mut scene = scene;
+        scene.gravity = [0.0; 2];
+        scene.domain = [[-9.0, 0.5], [-9.0, 9.0]];
+        run(scene, 160)
+    };
+    let ledger = sim.ledger();
+    assert_eq!(sim.particle_count(), 0);
+    assert!(close(ledger.departed_energy, 0.5 * 12.0 * 26.0 * DENSITY * 0.01 * THICKNESS + energy));
+    assert!(close(ledger.internal_work, -energy));
+}
+
+#[test]
+fn all_impulses_count_in_the_scale_of_the_ledger() {
+    let base = Boundary::plane("base", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Coulomb(0.2));
+    let mut scene = block([0.5, -1.0], vec![base]);
+    scene.gravity = [1.5, -9.81];
+    let sim = run(scene, 1);
+    let [px, py] = sim.ledger().boundaries[0].impulse;
+    assert!(px < 0.0 && py > 0.0);
+    assert!(close(sim.ledger().impulse_scale, sim.mass() * (1.5 + 9.81) * DT - px + py));
+}
+
+#[test]
+fn stresses_do_the_work_that_is_stored() {
+    let mut scene = block([0.0; 2], vec![]);
+    scene.bodies[0].1.iter_mut().for_each(|p| p.v = [-0.3 * p.x[0], 0.1 * p.x[1]]);
+    scene.numerics.scheme = crate::simulation::Scheme::Usl;
+    let mut sim = run(scene, 10);
+    let (stored, work) = (sim.stock().elastic, sim.ledger().internal_work);
+    assert!(stored > 1e-4 && (work / stored - 1.0).abs() < 0.02, "{work} {stored}");
+    // From now on with PIC alone, which takes kinetic energy at once.
+    assert_eq!(sim.ledger().pic_loss, 0.0);
+    sim.set_pic(crate::simulation::PicShare::Fraction(1.0));
+    sim.step().unwrap();
+    assert!(sim.ledger().pic_loss > 0.0);
+}
+
+#[test]
+fn a_floor_stops_every_column_alike() {
+    // Wide enough for several bands. It falls by almost a cell, so that in the end the lowest nodes that it can reach before the
+    // next sort hold it.
+    let floor = Boundary::plane("floor", Vector2::new(0.0, -H), Vector2::new(0.0, 1.0), Friction::Smooth);
+    let brick = Brick::new([0.0, 0.6 * H], [120, 4], H);
+    let mut points = brick.points();
+    points.iter_mut().for_each(|p| p.v = [0.0, -1.0]);
+    let mut scene = scene(&brick, law(), DENSITY, points, vec![floor]);
+    scene.numerics.max_time_step = DT;
+    let sim = run(scene, 97);
+    let points = points_by_number(&sim);
+    assert!(points[0].v[1] > -0.999 && points[0].v[1] < -0.1, "{:?}", points[0]);
+    for (k, p) in points.iter().enumerate() {
+        assert!((p.v[1] - points[k - k % 240].v[1]).abs() < 1e-12, "{p:?}");
+    }
+}
+
+#[test]
+fn musl_strains_with_the_velocities_that_points_have_after_the_update() {
+    // Usf does so with those that they have at the start of a step, before anything moves.
+    use crate::simulation::Scheme;
+    let mut before = block([0.0; 2], vec![]);
+    before.bodies[0].1.iter_mut().for_each(|p| p.v = [-3.0 * p.x[0] * p.x[1], 2.0 * p.x[0] * p.x[0]]);
+    before.numerics.pic = crate::simulation::PicShare::Fraction(0.5);
+    let mut after = before.clone();
+    let musl = points_by_number(&run(before, 1));
+    after.numerics.scheme = Scheme::Usf;
+    for (p, new) in after.bodies[0].1.iter_mut().zip(&musl) {
+        p.v = new.v;
+    }
+    for (a, b) in musl.iter().zip(points_by_number(&run(after, 1))) {
+        let (s, t) = (a.state.stress, b.state.stress);
+        assert!((s.xx - t.xx).abs() + (s.yy - t.yy).abs() + (s.xy - t.xy).abs() < 1e-9, "{a:?} {b:?}");
+        assert!(s.xy != 0.0);
+    }
+}
+
+#[test]
+fn stresses_turn_with_the_material() {
+    // A turn by 0.05 rad, counter-clockwise, about the middle.
+    let mut scene = block([0.0; 2], vec![]);
+    for p in &mut scene.bodies[0].1 {
+        p.v = [-5.0 * (p.x[1] - 0.15), 5.0 * (p.x[0] - 0.2)];
+        p.state.stress = Stress { xx: 10.0, yy: -10.0, ..Stress::default() };
+    }
+    // So soft that it does not answer.
+    scene.bodies[0].0.law = AnyLaw::LinearElastic(LinearElastic::new(10.0, 0.0));
+    let sim = run(scene, 10);
+    for (_, p) in sim.particles().filter(|(_, p)| (p.x[0] - 0.2).abs() < 0.06 && (p.x[1] - 0.15).abs() < 0.06) {
+        assert!((p.state.stress.xy - 10.0 * libm::sin(0.1)).abs() < 0.05, "{p:?}");
+    }
+}

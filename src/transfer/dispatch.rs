@@ -222,3 +222,17 @@ pub fn update_stress(
         wide::stress_shape(Hat, law, map, constants, update, velocity, points)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_is_kept_where_the_processor_goes_further() {
+        // Other tests may run meanwhile: their numbers do not depend on it.
+        for unit in [VectorUnit::Plain, VectorUnit::Avx2, VectorUnit::Avx512] {
+            limit_vector_unit(unit);
+            assert_eq!(vector_unit(), unit.min(detect()));
+        }
+    }
+}

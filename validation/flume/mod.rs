@@ -46,7 +46,7 @@ pub(super) struct Flume {
 
 impl Flume {
     /// Runs a case into `folder`, which is emptied, or in memory.
-    fn run(name: &'static str, case: &Case, folder: Option<&Path>, context: &mut Context) -> Result<Self, Failure> {
+    pub fn run(name: &'static str, case: &Case, folder: Option<&Path>, context: &mut Context) -> Result<Self, Failure> {
         let progress = &mut *context.progress;
         let mut stopped = false;
         let mut watch = |p: &crate::run::Progress| {

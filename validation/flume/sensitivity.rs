@@ -45,7 +45,15 @@ pub const SHOWN: [&str; 9] = [
     "end_s",
 ];
 /// Those that get a figure.
-const FIGURES: [&str; 5] = ["static_force_n", "peak_20ms_n", "front_velocity_m_per_s", "front_depth_m", "dissipated_1"];
+const FIGURES: [&str; 7] = [
+    "static_force_n",
+    "peak_20ms_n",
+    "front_velocity_m_per_s",
+    "barrier_velocity_m_per_s",
+    "front_depth_m",
+    "dissipated_1",
+    "end_s",
+];
 
 /// The rows of the record.
 ///

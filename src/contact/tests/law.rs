@@ -51,6 +51,38 @@ fn impact_without_friction_is_that_of_newton() {
 }
 
 #[test]
+fn exchanges_add_up() {
+    let mut sum = Exchange { impulse: [1.0, 2.0], friction_work: 3.0, normal_work: 4.0 };
+    sum.add(&Exchange { impulse: [10.0, 20.0], friction_work: 30.0, normal_work: 40.0 });
+    assert_eq!(sum, Exchange { impulse: [11.0, 22.0], friction_work: 33.0, normal_work: 44.0 });
+}
+
+#[test]
+fn a_solution_does_not_depend_on_the_last() {
+    let mut rng = Lcg::new(23);
+    for bodies in [2, 2, 2, 2, 3, 4] {
+        let (sides, mut touches) = random(&mut rng, bodies);
+        let (mut first, mut second) = (sides.clone(), sides);
+        solve(&mut first, &mut touches);
+        let solved = touches.clone();
+        solve(&mut second, &mut touches);
+        assert_eq!((first, solved), (second, touches));
+    }
+}
+
+#[test]
+fn without_friction_nothing_sticks_even_where_nothing_slides() {
+    let mut sides = [side(1.0, [1.0, 0.0], [1.0, 0.0]), side(1.0, [0.0; 2], [0.0; 2])];
+    let mut touches = [Touch::new([0, 1], [1.0, 0.0], 0.0)];
+    solve(&mut sides, &mut touches);
+    assert_eq!(touches[0].state(), State::Slipping);
+    sides[0].velocity = [1.0, 3.0];
+    sides[1].velocity = [0.0, 1.0];
+    project(&mut sides, &touches);
+    assert_eq!(sides.map(|s| s.velocity), [[0.5, 3.0], [0.5, 1.0]]);
+}
+
+#[test]
 fn bodies_that_part_or_have_not_met_are_left_alone() {
     for (velocity, slack) in [([-0.1, 5.0], 0.0), ([0.0, 5.0], 0.0), ([0.3, 5.0], 0.3)] {
         let start = [side(1.0, velocity, velocity), side(2.0, [0.0; 2], [0.0; 2])];
@@ -291,4 +323,44 @@ fn a_corner_of_floor_and_contact_for_any_masses() {
         assert!(dot(relative, touch.normal) < 1e-6 * scale, "{relative:?} {touch:?}");
         assert!(sides[1].velocity[1] > -1e-6 * scale);
     }
+}
+
+#[test]
+fn solutions_scale_with_the_velocities() {
+    let mut rng = Lcg::new(29);
+    let scale = 2f64.powi(-40);
+    for _ in 0..20 {
+        let (mut sides, mut touches) = random(&mut rng, 3);
+        let mut slow: Vec<Side> = sides.clone();
+        for s in &mut slow {
+            (s.old, s.velocity) = (s.old.map(|v| scale * v), s.velocity.map(|v| scale * v));
+        }
+        solve(&mut sides, &mut touches);
+        solve(&mut slow, &mut touches);
+        for (s, t) in sides.iter().zip(&slow) {
+            assert_eq!(s.velocity.map(|v| scale * v), t.velocity);
+        }
+    }
+}
+
+#[test]
+fn projection_visits_every_pair_of_a_row_often_enough() {
+    let mut sides = [3.0, 0.0, -2.0].map(|v| side(1.0, [v, 0.0], [v, 0.0]));
+    let mut touches = [Touch::new([0, 1], [1.0, 0.0], 1.0), Touch::new([1, 2], [1.0, 0.0], 1.0)];
+    solve(&mut sides, &mut touches);
+    for (s, v) in sides.iter_mut().zip([1.0, 0.0, 0.0]) {
+        s.velocity = [v, 0.0];
+    }
+    project(&mut sides, &touches);
+    assert!(sides.iter().all(|s| (s.velocity[0] - 1.0 / 3.0).abs() < 0.01), "{sides:?}");
+}
+
+#[test]
+fn projection_leaves_an_approach_that_closes_the_gap() {
+    let mut sides = [side(1.0, [1.0, 0.0], [1.0, 0.0]), side(1.0, [0.0; 2], [0.0; 2])];
+    let mut touches = [Touch::new([0, 1], [1.0, 0.0], 0.0).with_slack(0.4)];
+    solve(&mut sides, &mut touches);
+    (sides[0].velocity, sides[1].velocity) = ([0.9, 0.0], [0.1, 0.0]);
+    project(&mut sides, &touches);
+    assert!((sides[0].velocity[0] - sides[1].velocity[0] - 0.4).abs() < 1e-15, "{sides:?}");
 }

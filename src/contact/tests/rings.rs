@@ -56,6 +56,9 @@ fn rings_of_other_shapes() {
     assert_eq!((strip.rings[0].len(), strip.points().len()), (8, 5));
     let apart = Outline::trace(&lattice([5, 2], 0.0, |i, _| i != 2), S, 0.0);
     assert_eq!(apart.rings.len(), 2);
+    // Squares that meet at a corner only are not one body there.
+    let corner = Outline::trace(&lattice([2, 2], 0.0, |i, j| i == j), S, 0.0);
+    assert_eq!(corner.rings, [[0], [3]]);
     assert_eq!(Outline::trace(&[], S, 0.0), Outline::default());
     assert_eq!(Outline::trace(&[(7, [1.0, 2.0])], S, 0.0).rings, [[7]]);
 }
@@ -132,7 +135,51 @@ fn boxes_find_what_a_full_search_finds() {
             assert!((a.distance - b.distance).abs() < 1e-12, "{x:?} {a:?} {b:?}");
             // Where two places are equally near, either normal is right.
             let apart = minus(a.foot, b.foot);
-            assert!(dot(apart, apart) > 1e-12 || dot(a.normal, b.normal) > 1.0 - 1e-9, "{x:?} {a:?} {b:?}");
+            let turned = minus(a.normal, b.normal);
+            assert!(dot(apart, apart) > 1e-12 || dot(turned, turned) < 1e-18, "{x:?} {a:?} {b:?}");
         }
     }
+}
+
+#[test]
+fn sharp_corners_have_an_inside_and_an_outside() {
+    // A triangle with corners of 60 degrees: beyond a corner, one face alone would say inside.
+    let ring = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.75f64.sqrt()]];
+    let mut surface = Surface::new(0.1);
+    surface.follow(ring.into_iter());
+    for k in 0..3000 {
+        let x = [-0.5 + 0.0331 * f64::from(k % 60), -0.4 + 0.0337 * f64::from(k / 60)];
+        let (a, b) = (nearest(&ring, 0.1, x).expect("a ring"), surface.nearest(x).expect("a ring"));
+        assert!((a.distance - b.distance).abs() < 1e-12, "{x:?} {a:?} {b:?}");
+    }
+    // On the ring itself, where nothing points away: the normal of the face, and at a corner what lies between.
+    for (on, normal) in [([0.5, 0.0], [0.0, -1.0]), ([0.25, 0.75f64.sqrt() / 2.0], [-(0.75f64.sqrt()), 0.5])] {
+        let found = surface.nearest(on).expect("a ring");
+        assert!(dot(found.normal, normal) > 1.0 - 1e-12 && (found.distance + 0.1).abs() < 1e-12, "{found:?}");
+    }
+    let top = surface.nearest(ring[2]).expect("a ring").normal;
+    assert!(top[0].abs() < 1e-12 && (top[1] - 1.0).abs() < 1e-12, "{top:?}");
+}
+
+#[test]
+fn the_surface_of_a_grain_of_a_few_micrometres() {
+    let ring = [[0.0, 0.0], [4e-5, 0.0], [4e-5, 4e-5], [0.0, 4e-5]];
+    let mut surface = Surface::new(1e-5);
+    surface.follow(ring.into_iter());
+    // Beyond a corner the normal points away from the corner.
+    let x = [4e-5 + 3e-6, 4e-5 + 4e-6];
+    for found in [nearest(&ring, 1e-5, x), surface.nearest(x)] {
+        let found = found.expect("a ring");
+        assert!((found.distance + 5e-6).abs() < 1e-18, "{found:?}");
+        assert!(dot(found.normal, [0.6, 0.8]) > 1.0 - 1e-9, "{found:?}");
+    }
+}
+
+#[test]
+fn one_point_is_a_disc_without_faces() {
+    let found = nearest(&[[1.0, 2.0]], 0.5, [4.0, 6.0]).expect("a ring");
+    assert_eq!(found, Nearest { distance: 4.5, normal: [0.6, 0.8], foot: [1.0, 2.0] });
+    let mut surface = Surface::new(0.5);
+    surface.follow([[1.0, 2.0]; 2].into_iter());
+    assert_eq!(surface.nearest([4.0, 6.0]), None);
 }

@@ -135,6 +135,15 @@ fn normals_of_straight_surfaces() {
 }
 
 #[test]
+fn regression_asks_where_points_are_and_not_how_many() {
+    let pair = Pair::new(0.4, 0.3, 0.0);
+    let (_, [a, b]) = pair.at([0, 0]);
+    let once = regression::normal(&a, &b, [0.0; 2], 1.0).expect("a normal");
+    let twice = regression::normal(&[&a[..], &a].concat(), &[&b[..], &b].concat(), [0.0; 2], 1.0).expect("a normal");
+    assert!((0..2).all(|d| (once[d] - twice[d]).abs() < 1e-12), "{once:?} {twice:?}");
+}
+
+#[test]
 fn regression_wants_two_clouds() {
     let x = [[0.1, 0.0], [0.2, 0.3]];
     assert_eq!(regression::normal(&x, &[], [0.0; 2], 1.0), None);
@@ -174,9 +183,11 @@ fn gaps_between_straight_surfaces() {
 }
 
 #[test]
-fn displacements_tell_approach_from_parting() {
+fn mean_positions_and_displacements_tell_approach_from_parting() {
     let sample = |u: f64| Sample { mass: 2.0, moment: [2.0 * u, 0.0], ..Sample::default() };
     let n = [1.0, 0.0];
+    let apart = separation::from_positions(&sample(0.1), &sample(0.3), n, TOUCHING, 0.2);
+    assert!((apart - (0.2 - 0.8 * 0.2)).abs() < 1e-15, "in cells of 0.2 m: {apart}");
     assert!((separation::from_displacements(&sample(0.1), &sample(0.3), n) - 0.2).abs() < 1e-15);
     assert!(separation::from_displacements(&sample(0.3), &sample(0.1), n) < 0.0);
     assert_eq!((separation::slack(-0.1, 0.5), separation::slack(0.1, 0.5)), (0.0, 0.2));
@@ -200,4 +211,19 @@ fn extents_of_a_stretched_domain() {
     let r = std::f64::consts::FRAC_1_SQRT_2;
     assert!((radius(0.5, finger, [r, r]) - 1.0).abs() < 1e-15);
     assert!((radius(0.5, finger, [r, -r]) - 0.5).abs() < 1e-15);
+}
+
+#[test]
+fn the_larger_body_decides_and_normals_point_out_of_the_first() {
+    let sample = |volume: f64, gradient: Vector| Sample { volume, gradient, mass: 2.0, ..Sample::default() };
+    let large =
+        |a: f64, b: f64| from_gradients(GradientRule::Larger, &sample(a, [3.0, 0.0]), &sample(b, [0.0, -4.0]), 0.1);
+    assert_eq!(large(2.0, 1.0), Some([1.0, 0.0]));
+    assert_eq!(large(1.0, 2.0), Some([0.0, 1.0]));
+    let both = from_gradients(GradientRule::Average, &sample(2.0, [3.0, 0.0]), &sample(1.0, [0.0, -4.0]), 0.1);
+    assert_eq!(both, Some([0.6, 0.8]));
+    assert_eq!(from_gradients(GradientRule::Average, &sample(2.0, [0.05, 0.0]), &sample(2.0, [0.0; 2]), 0.1), None);
+    let at = |x: Vector| Sample { mass: 2.0, moment: x.map(|x| 2.0 * x), ..Sample::default() };
+    assert_eq!(from_positions(&at([1.0, 1.0]), &at([4.0, 5.0])), Some([0.6, 0.8]));
+    assert_eq!(from_positions(&at([1.0, 1.0]), &at([1.0, 1.0])), None);
 }

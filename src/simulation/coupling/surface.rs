@@ -310,3 +310,25 @@ fn lattice_angle(points: &[(u32, Vector)], spacing: f64) -> f64 {
     let neighbour = points.iter().skip(1).find(|p| away(p.1) < 1e-6 * spacing);
     neighbour.map_or(0.0, |&(_, x)| libm::atan2(x[1] - first[1], x[0] - first[0]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verification::scene::Brick;
+
+    #[test]
+    fn the_angle_of_a_lattice_is_that_of_its_rows_or_columns() {
+        for angle in [0.0, 0.4, -1.2] {
+            let brick = Brick { angle, ..Brick::new([3.0, -2.0], [4, 3], 0.1) };
+            let mut points: Vec<_> = brick.points().iter().map(|p| (p.id, p.x)).collect();
+            // The neighbour of the first need not come next.
+            points.swap(1, 20);
+            for _ in 0..2 {
+                let found = lattice_angle(&points, 0.05);
+                assert!(libm::cos(4.0 * (found - angle)) > 1.0 - 1e-12, "{angle}: {found}");
+                points.reverse();
+            }
+        }
+        assert_eq!(lattice_angle(&[], 0.05), 0.0);
+    }
+}
