@@ -5,7 +5,7 @@ use crate::validation::data::{self, Datum};
 use crate::verification::report::number;
 
 /// The file of the paper's numbers for the flume.
-const PUBLISHED: data::Source = data::SOURCES[0];
+pub const PUBLISHED: data::Source = data::SOURCES[0];
 
 /// What stands beside a published number, from the quantities of a run by their names.
 pub type Counterpart = fn(&dyn Fn(&str) -> f64) -> f64;

@@ -1,6 +1,6 @@
 //! Tables and figures of the flume: what a reader of the paper's Figs. 2, 3, 4 and 15 looks for.
 
-use super::{CASES, Flume, compare, run_folder};
+use super::{CASES, Flume, base_friction, compare, run_folder};
 use crate::output::Table;
 use crate::plot::curves::{self, Curve, Curves};
 use crate::plot::force_time::{self, ReferenceLine};
@@ -60,7 +60,7 @@ fn references(flume: &Flume) -> String {
 fn front(flume: &Flume) -> String {
     let case = &flume.summary.case;
     let angle = case.gravity.inclination_deg.to_radians();
-    let acceleration = acceleration_from_rest(case.gravity.magnitude_m_per_s2, angle, 0.4);
+    let acceleration = acceleration_from_rest(case.gravity.magnitude_m_per_s2, angle, base_friction(case));
     let rows = flume.summary.front.iter().map(|f| {
         let block = (2.0 * acceleration * f.x_m).sqrt();
         vec![f.x_m, f.time_s, f.velocity_m_per_s, f.depth_m, f.froude, block]

@@ -72,6 +72,15 @@ impl Flume {
     }
 }
 
+/// Friction coefficient of the base of a case.
+pub(super) fn base_friction(case: &Case) -> f64 {
+    let base = case.boundaries.iter().find(|b| Some(&b.name) == case.gauges.base.as_ref());
+    match base.and_then(|b| b.contact_law()) {
+        Some(Contact::Coulomb { friction }) => friction,
+        _ => f64::NAN,
+    }
+}
+
 /// An empty folder.
 fn clear(folder: &Path) -> Result<(), Failure> {
     let fail = |source| crate::output::OutputError::Create { path: folder.to_path_buf(), source };

@@ -1,11 +1,8 @@
 //! What any run of the flume must satisfy, whatever the paper says.
 
-use super::Flume;
+use super::{Flume, base_friction};
 use crate::check::{Check, Expected, Kind, Tolerance};
 use crate::theory::sliding_block::acceleration_from_rest;
-
-/// Friction coefficient of the base, as the paper states it.
-const FRICTION: f64 = 0.4;
 
 /// The checks.
 pub fn checks(flume: &Flume) -> Vec<Check> {
@@ -88,7 +85,7 @@ pub fn checks(flume: &Flume) -> Vec<Check> {
     let angle = case.gravity.inclination_deg.to_radians();
     let g = case.gravity.magnitude_m_per_s2;
     for passage in summary.front.iter().take(case.gauges.stations_m.len()) {
-        let block = (2.0 * acceleration_from_rest(g, angle, FRICTION) * passage.x_m).sqrt();
+        let block = (2.0 * acceleration_from_rest(g, angle, base_friction(case)) * passage.x_m).sqrt();
         checks.push(
             Check::new(
                 format!("{name}: front velocity at {} m", passage.x_m),
