@@ -193,7 +193,8 @@ fn rounded(x: f64, quantum: f64) -> f64 {
     if quantum > 0.0 && (x / quantum).abs() < 1e15 { (x / quantum).round() * quantum } else { x }
 }
 
-fn quoted(s: &str) -> String {
+/// A cell of CSV, in quotes where it needs them.
+pub fn quoted(s: &str) -> String {
     if s.contains([',', '"', '\n']) { format!("\"{}\"", s.replace('"', "\"\"")) } else { s.into() }
 }
 

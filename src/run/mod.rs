@@ -5,7 +5,9 @@
 
 mod experiment;
 pub mod files;
+mod means;
 pub mod records;
+mod rest;
 pub mod scene;
 pub mod structure;
 pub mod summary;

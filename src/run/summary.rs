@@ -1,6 +1,7 @@
 //! What a run says: inputs resolved, results, ledgers, warnings.
 
 use super::experiment::{End, Experiment};
+use super::means::{STATIC_WINDOW, impulse, late_mean, smoothed_peak, time_to_static};
 use super::records::{HistoryRow, MomentumRow, Records};
 use super::structure::{self, StructureResults};
 use crate::boundary::Friction;
@@ -9,12 +10,6 @@ use serde::Serialize;
 
 /// Force on the barrier above which the flow counts as arrived, N.
 const ARRIVAL_FORCE: f64 = 0.5;
-/// Length of the means behind "static" values, s.
-const STATIC_WINDOW: f64 = 0.3;
-/// Length of the mean behind the filtered peak, s: the paper's archive interval.
-const PEAK_WINDOW: f64 = 0.02;
-/// The force is static from when its mean over that interval stays within this share of the static force.
-const STATIC_BAND: f64 = 0.05;
 /// Time after arrival over which the impulse of the impact is taken, s.
 const IMPACT_WINDOW: f64 = 0.5;
 
@@ -310,15 +305,6 @@ fn stepping(experiment: &Experiment) -> Stepping {
     }
 }
 
-/// Mean of a quantity over the samples of the last `STATIC_WINDOW`, or of a part of it.
-fn late_mean(history: &[HistoryRow], from: f64, to: f64, value: impl Fn(&HistoryRow) -> f64) -> f64 {
-    let Some(last) = history.last() else { return 0.0 };
-    let (low, high) = (last.time - STATIC_WINDOW * (1.0 - from), last.time - STATIC_WINDOW * (1.0 - to));
-    let inside = history.iter().filter(|r| r.time > low && r.time <= high);
-    let (sum, count) = inside.fold((0.0, 0.0), |(s, n), r| (s + value(r), n + 1.0));
-    if count > 0.0 { sum / count } else { value(last) }
-}
-
 fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults> {
     let gauge = experiment.barrier()?;
     let history = &records.history;
@@ -350,37 +336,6 @@ fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults>
         run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
         overtopped_kg: last.overtopped,
     })
-}
-
-/// Means of the normal force over `PEAK_WINDOW`: start, end (s) and mean (N) of each interval that ends with a sample.
-fn running_means(history: &[HistoryRow]) -> impl Iterator<Item = (f64, f64, f64)> {
-    let (mut first, mut sum) = (0, 0.0);
-    history.iter().enumerate().map(move |(k, row)| {
-        sum += row.normal;
-        while row.time - history[first].time > PEAK_WINDOW * (1.0 - 1e-9) {
-            sum -= history[first].normal;
-            first += 1;
-        }
-        (history[first].time, row.time, sum / (k + 1 - first) as f64)
-    })
-}
-
-/// Largest mean over `PEAK_WINDOW` and the middle of its interval.
-fn smoothed_peak(history: &[HistoryRow]) -> (f64, f64) {
-    let whole = running_means(history).filter(|m| m.1 >= PEAK_WINDOW);
-    whole.fold((0.0, 0.0), |best, (from, to, mean)| if mean > best.0 { (mean, 0.5 * (from + to)) } else { best })
-}
-
-/// End of the last interval of `PEAK_WINDOW` whose mean is farther from the static force than `STATIC_BAND`.
-fn time_to_static(history: &[HistoryRow], static_force: f64) -> f64 {
-    let off = running_means(history).filter(|m| (m.2 - static_force).abs() > STATIC_BAND * static_force.abs());
-    off.last().map_or(0.0, |m| m.1)
-}
-
-/// Impulse of the normal force between two times, N s.
-fn impulse(history: &[HistoryRow], from: f64, to: f64) -> f64 {
-    let pairs = history.windows(2).filter(|p| p[1].time > from && p[1].time <= to);
-    pairs.map(|p| p[1].normal * (p[1].time - p[0].time)).sum()
 }
 
 fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults> {

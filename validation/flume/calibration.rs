@@ -15,7 +15,7 @@ use crate::validation::data::Datum;
 use crate::validation::record::Record;
 use crate::validation::{Context, Failure, Validation};
 use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::verification::report::{number, quoted};
 use std::path::Path;
 
 /// The analysis of the recorded runs.
@@ -142,7 +142,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
 fn sets(members: &[Member], columns: &[&str]) -> String {
     let mut text = format!("set,{},misfit_40deg,misfit_23deg,misfit\n", columns.join(","));
     for m in members {
-        let inputs: Vec<String> = columns.iter().map(|c| compare::quoted(&m.runs[0].set[*c])).collect();
+        let inputs: Vec<String> = columns.iter().map(|c| quoted(&m.runs[0].set[*c])).collect();
         let [a, b] = m.misfit.map(number);
         text += &format!("{},{},{a},{b},{}\n", m.label, inputs.join(","), number(m.both()));
     }
@@ -157,7 +157,7 @@ fn profiles(members: &[Member]) -> String {
         let least = |value: &dyn Fn(&Member) -> f64| own.iter().map(|m| value(m)).fold(f64::INFINITY, f64::min);
         let numbers = [least(&|m| m.misfit[0]), least(&|m| m.misfit[1]), least(&|m| m.both())].map(number);
         let middle = if middle.is_nan() { String::new() } else { number(middle) };
-        text += &format!("{input},{},{middle},{},{}\n", compare::quoted(class), numbers.join(","), own.len());
+        text += &format!("{input},{},{middle},{},{}\n", quoted(class), numbers.join(","), own.len());
     };
     for input in RANGES {
         let value = |m: &Member| m.runs[0].set[input].parse::<f64>().unwrap_or(f64::NAN);
@@ -204,7 +204,7 @@ fn residuals(members: &[Member], targets: &[Vec<Target>; 2]) -> String {
                 let ours = (t.of)(&|q| m.runs[k].get(q));
                 let deviation = t.datum.uncertainty.hypot(t.numerical);
                 let numbers = [t.datum.value, deviation, ours, t.distance(m.runs[k])].map(number);
-                let (set, quantity) = (compare::quoted(m.label), compare::quoted(&t.datum.quantity));
+                let (set, quantity) = (quoted(m.label), quoted(&t.datum.quantity));
                 text += &format!("{set},{},{case},{quantity},{}\n", number(m.both()), numbers.join(","));
             }
         }

@@ -2,7 +2,7 @@
 
 use super::Flume;
 use crate::validation::data::{self, Datum};
-use crate::verification::report::number;
+use crate::verification::report::{number, quoted};
 
 /// The file of the paper's numbers for the flume.
 pub const PUBLISHED: data::Source = data::SOURCES[0];
@@ -50,9 +50,4 @@ pub fn against_paper(flumes: &[Flume]) -> String {
         }
     }
     text
-}
-
-/// A cell of CSV.
-pub fn quoted(s: &str) -> String {
-    if s.contains([',', '"', '\n']) { format!("\"{}\"", s.replace('"', "\"\"")) } else { s.into() }
 }

@@ -7,7 +7,7 @@ use crate::plot::force_time::{self, ReferenceLine};
 use crate::plot::{PlotError, energy_shares, flow_snapshots, pressure_profile};
 use crate::theory::jump;
 use crate::theory::sliding_block::acceleration_from_rest;
-use crate::verification::report::table_csv;
+use crate::verification::report::{quoted, table_csv};
 use std::path::Path;
 
 /// Samples of the history in a row of the table of layers: 20 ms.
@@ -27,8 +27,7 @@ pub fn tables(flume: &Flume) -> Vec<(String, String)> {
 fn references(flume: &Flume) -> String {
     let case = &flume.summary.case;
     let mut text = String::from("label,value_n,half_width_n\n");
-    let mut add =
-        |label: &str, value: f64, half: f64| text += &format!("{},{value:.4},{half:.4}\n", compare::quoted(label));
+    let mut add = |label: &str, value: f64, half: f64| text += &format!("{},{value:.4},{half:.4}\n", quoted(label));
     if let Some(d) = &flume.summary.deposit {
         let [low, high] = d.friction_limits_n;
         add(

@@ -11,7 +11,7 @@ use crate::study::quantities::QUANTITIES;
 use crate::validation::record::Record;
 use crate::validation::{Context, Failure, Validation};
 use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::verification::report::{number, quoted};
 use std::path::Path;
 
 /// The analysis of the recorded runs.
@@ -80,7 +80,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         let own: Vec<&Run> = rows.iter().filter(|r| r.case == case).collect();
         let Some(base) = own.iter().find(|r| r.factor == "base") else { continue };
         let mut line = |factor: &str, label: &str, ended: &str, of: &dyn Fn(&str) -> f64| {
-            text += &[case, factor, label, ended].map(super::compare::quoted).join(",");
+            text += &[case, factor, label, ended].map(quoted).join(",");
             for quantity in SHOWN {
                 let value = of(quantity);
                 let change = 100.0 * (value / base.get(quantity) - 1.0);

@@ -14,7 +14,7 @@ use crate::output::Table;
 use crate::plot::PlotError;
 use crate::validation::{Context, Failure, Validation};
 use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::verification::report::{number, quoted};
 use std::path::Path;
 
 /// The verdict.
@@ -122,7 +122,7 @@ fn run(_: &mut Context) -> Result<Outcome, Failure> {
                 let numbers =
                     [datum.value, ours, error, u.numerical, u.input, u.data, u.validation(), over].map(number);
                 let largest = if reading == "literal" { largest } else { String::new() };
-                let (quantity, unit, kind) = (compare::quoted(&datum.quantity), &datum.unit, &datum.kind);
+                let (quantity, unit, kind) = (quoted(&datum.quantity), &datum.unit, &datum.kind);
                 let said = sentence(error, &u);
                 text += &format!("{reading},{case},{quantity},{unit},{kind},{},{largest},{said}\n", numbers.join(","));
                 if ours > 0.0 && datum.value > 0.0 {
