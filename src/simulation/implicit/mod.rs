@@ -22,7 +22,7 @@ use super::field::VelocityField;
 use banded::Banded;
 
 /// Most repetitions of contact in a step, and the change of velocity, as a share of the largest, at which they end.
-pub(super) const PASSES: usize = 60;
+pub(super) const PASSES: usize = 600;
 pub(super) const SETTLED: f64 = 1e-7;
 
 /// A point with its place and state at the last sort, and the nodes it reaches.
