@@ -51,8 +51,12 @@ SLOW = [
 
 def refresh():
     """Brings the copy of the project up to date."""
-    names = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
-    for name in filter(None, names):
+    listing = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True)
+    names = listing.stdout.splitlines()
+    for old in (TREE / "src").rglob("*.rs"):
+        if str(old.relative_to(TREE)) not in names:
+            old.unlink()
+    for name in names:
         text = (ROOT / name).read_bytes() + (SWITCH.encode() if name == "src/lib.rs" else b"")
         if not (TREE / name).exists() or (TREE / name).read_bytes() != text:
             (TREE / name).parent.mkdir(parents=True, exist_ok=True)
