@@ -171,14 +171,18 @@ def rounds(file):
     return [[f"{module}::", "solver_tests::", *skip(SLOW)], skip(OTHERS + SLOW), SLOW]
 
 
-def attempt_original(binary, name):
-    """Limits of the processor time of each round, s."""
+def attempt_original(binary, name, seen):
+    """Limits of the processor time of each round, s; `seen` keeps those of rounds that files have in common."""
     limits = []
     for arguments in rounds(name):
+        if known := seen.get(tuple(arguments)):
+            limits.append(known)
+            continue
         before = os.times()
         if (outcome := attempt(binary, 0, arguments, 600))[0] != "missed":
             sys.exit(f"{outcome[1]} fails without a mutant")
         limits.append(max(5, int(HANGS * (os.times().children_user - before.children_user))))
+        seen[tuple(arguments)] = limits[-1]
     return limits
 
 
@@ -193,8 +197,8 @@ def trial(binary, number, name, limits):
 def try_batch(batch, keys):
     """Tries mutants, as (number, mutant)."""
     files = [File(f, [m for m in batch if m[1]["file"] == f]) for f in sorted({m["file"] for _, m in batch})]
-    binary, unviable = build(files)
-    limits = {f.name: attempt_original(binary, f.name) for f in files}
+    (binary, unviable), seen = build(files), {}
+    limits = {f.name: attempt_original(binary, f.name, seen) for f in files}
     for f in files:
         (TREE / f.name).write_text(f.text)
         fingerprint = source(f.name)
