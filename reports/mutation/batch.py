@@ -212,7 +212,7 @@ def try_batch(batch, keys):
                 found.append((number, outcome))
                 if done % 20 == 0 or done == len(f.names):
                     known = load()
-                    for n, (how, by) in (f for f in found if f[1][0] != "untried"):
+                    for n, (how, by) in (r for r in found if r[1][0] != "untried"):
                         key = keys[f.names[n]]
                         known[key] = dict(zip(COLUMNS, (*key, fingerprint, how, "unit", by)))
                     store(known)
