@@ -9,7 +9,7 @@ use crate::simulation::Scene;
 /// Cell size, distance of the barrier's points, and how many of them lie across and along it, m.
 const CELL: f64 = 0.1;
 const SPACING: f64 = 0.05;
-const COUNTS: [usize; 2] = [4, 12];
+const COUNTS: [usize; 2] = [6, 12];
 /// How far it reaches below its foot, m.
 const BURIED: f64 = 0.1;
 const FOOT: [f64; 2] = [0.7, -0.4];
@@ -110,6 +110,16 @@ fn layers_carry_the_normal_stress_at_the_face() {
         assert!((0..3).all(|k| near(found.layers[k], [1e3, 1.5e3, 2e3][k] * 0.5 * area)), "{view:?} {found:?}");
         let found = view.survey([grains([CELL, 0.0]), vec![]]);
         assert!(found.layers == [0.0; 3] && near(found.run_up, 7.5 * SPACING), "{view:?} {found:?}");
+        // The nearest points are sought anew in each cell's height: the first layer is missing in the lower half, where the
+        // pressure is five times that of the upper half.
+        let low = |s: f64| s < 4.0 * SPACING;
+        let grain = |x: [f64; 2]| view.grain(x, [if low(x[1]) { -5e3 } else { -1e3 }, 0.0, 0.0]);
+        let some = places.clone().map(|(x, _)| x).filter(|x| !low(x[1]) || x[0] > SPACING);
+        let found = view.survey([some.map(grain).collect(), vec![]]);
+        assert!(found.layers.iter().all(|f| near(*f, 3e3 * area)), "{view:?} {found:?}");
+        // What lies on the crest does not push against the face, nor does what is deep inside.
+        let elsewhere = [[-0.1, 0.55], [-0.13, 0.25]].map(|x| view.grain(x, [-1e3, -1e3, 1e3]));
+        assert_eq!(view.survey([elsewhere.to_vec(), vec![]]).layers, [0.0; 3]);
         // The second material is finer: two of its layers make one.
         let fine = |k: usize| move |j: usize| [k, j].map(|k| (k as f64 + 0.5) * MATERIALS[1].2);
         let fine = (0..6).flat_map(|k| (0..16).map(fine(k))).map(|x| view.grain(x, [-2e3, 0.0, 0.0])).collect();
@@ -134,8 +144,8 @@ fn run_up_overtopping_and_penetration_are_told_apart() {
         // High above it.
         assert_eq!(seen(&[[-0.1, 1.5]], &[[0.2, 2.0]]), Survey::default());
         // Behind it, near and far.
-        let found = seen(&[[-0.23, 0.2], [-0.45, 0.3], [0.5, 0.1]], &[[-3.0, 0.2]]);
-        assert!(found.run_up == 0.0 && found.overtopped == 4.0, "{view:?} {found:?}");
+        let found = seen(&[[-0.33, 0.2], [-0.55, 0.3], [-0.4, 0.1], [0.5, 0.1]], &[[-3.0, 0.2]]);
+        assert!(found.run_up == 0.0 && found.overtopped == 5.0, "{view:?} {found:?}");
         // A point reaches as far as half the distance to its neighbours.
         let found = seen(&[[0.01, 0.2]], &[[-0.02, 0.3]]);
         assert!(near(found.penetration, 0.0325) && near(found.run_up, 0.3), "{view:?} {found:?}");
@@ -174,7 +184,7 @@ fn deflection_is_that_of_the_points_at_the_face() {
         }
         let sim = Simulation::new(scene);
         let mut gauge = view.gauge(&sim);
-        assert!((gauge.body(), gauge.face().foot().x) == (0, FOOT[0]) && gauge.outline().len() == 2 * (4 + 12) - 4);
+        assert!((gauge.body(), gauge.face().foot().x) == (0, FOOT[0]) && gauge.outline().len() == 2 * (6 + 12) - 4);
         // Bulging most at 0.225 m: w = 0.04 - (s - 0.225)^2 at the face, moving back with s m/s; the back bulges twice as far.
         for (id, place) in gauge.points.iter_mut().enumerate() {
             let s = (id % COUNTS[1]) as f64 * SPACING + 0.5 * SPACING - BURIED;
@@ -283,8 +293,8 @@ fn a_clamp_that_holds_all_takes_momentum_and_weight_about_the_foot() {
                 assert!(same(sample.inertia, inertia), "{view:?}: {sample:?} {inertia:?}");
                 assert_eq!(sample.contact, Components::default());
                 assert!(sample.imbalance < 1e-12, "{sample:?}");
-                // Its middle lies two points behind the face and six above its lower end.
-                let moment = expected.normal * (6.0 * SPACING - BURIED) + expected.tangential * (-2.0 * SPACING);
+                // Its middle lies three points behind the face and six above its lower end.
+                let moment = expected.normal * (6.0 * SPACING - BURIED) + expected.tangential * (-3.0 * SPACING);
                 assert!(close(sample.clamp_moment, moment), "{view:?}: {} {moment}", sample.clamp_moment);
                 if step == 0 {
                     let peak = gauge.peak_clamp_force();
