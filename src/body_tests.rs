@@ -47,13 +47,15 @@ fn what_is_written_is_read_in_every_lane() {
 #[test]
 fn points_come_back_in_order() {
     for count in [0, 1, 7, 8, 9, 16, 21] {
-        let points = points(count);
+        let mut points = points(count);
         assert_eq!((points.len(), points.is_empty()), (count as usize, count == 0));
         assert!(points.iter().eq((0..count).map(distinct)), "{count}");
         let counts: Vec<usize> = points.blocks().map(|(_, n)| n).collect();
         assert_eq!(counts.iter().sum::<usize>(), count as usize);
         assert_eq!(counts.len(), (count as usize).div_ceil(LANES));
         assert!(counts.iter().rev().skip(1).all(|&n| n == LANES));
+        assert!(points.blocks_mut().map(|(_, n)| n).eq(counts.iter().copied()));
+        assert!(points.blocks_and_fingers_mut().map(|(_, n, _)| n).eq(counts));
     }
 }
 
