@@ -60,7 +60,14 @@ validations!(
     flume_sensitivity,
     flume_calibration,
     flume_verdict,
+    barrier_beam,
     barrier_rigid,
+    barrier_impact,
+    barrier_rigidity,
+    barrier_grids,
+    barrier_density,
+    barrier_close_up,
+    barrier_claims,
     column_level,
     column_slope
 );

@@ -223,5 +223,9 @@ fn field_gives_the_mean_velocity_and_fill_of_each_cell() {
         assert!(close(cell.v[0], v[0]) && close(cell.v[1], v[1]), "{cell:?}");
     }
     // The heavy point is two thirds of the mass of the last cell; its mean stress is a third of -6 Pa.
-    assert!(close(field[2].pressure, 2.0 * 2.0 / 3.0) && close(field[2].plastic_shear, 9.0 * 2.0 / 3.0), "{:?}", field[2]);
+    assert!(
+        close(field[2].pressure, 2.0 * 2.0 / 3.0) && close(field[2].plastic_shear, 9.0 * 2.0 / 3.0),
+        "{:?}",
+        field[2]
+    );
 }

@@ -9,8 +9,8 @@ mod compare;
 mod figures;
 pub mod noise;
 mod physics;
-mod runs;
-mod scatter;
+pub(super) mod runs;
+pub(super) mod scatter;
 pub mod sensitivity;
 pub mod verdict;
 
