@@ -60,6 +60,20 @@ impl Axis {
         Self { lo: lo - room, hi: hi + room, ticks, decimals: 0, names }
     }
 
+    /// Takes the names of these ticks away; told are a tick's place as a share of the axis and its name.
+    pub(super) fn unname(&mut self, mut which: impl FnMut(f64, &str) -> bool) {
+        for (tick, name) in self.ticks.iter().zip(&mut self.names) {
+            if which((tick - self.lo) / (self.hi - self.lo), name) {
+                name.clear();
+            }
+        }
+    }
+
+    /// A range without ticks.
+    pub(super) fn bare(lo: f64, hi: f64) -> Self {
+        Self { lo, hi, ticks: Vec::new(), decimals: 0, names: Vec::new() }
+    }
+
     /// A tick as text.
     pub(super) fn label(&self, value: f64) -> String {
         if let Some(k) = self.ticks.iter().position(|t| *t == value)
