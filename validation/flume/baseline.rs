@@ -36,9 +36,9 @@ pub const RECORD: Record = Record {
 };
 
 /// Cell sizes, m, coarse to fine, and as they stand in the table.
-const CELLS: [(f64, &str); 3] = [(0.02, "0.02"), (0.01, "0.01"), (0.005, "0.005")];
+pub const CELLS: [(f64, &str); 3] = [(0.02, "0.02"), (0.01, "0.01"), (0.005, "0.005")];
 /// The cell size of the case files.
-const CASE_CELLS: usize = 1;
+pub const CASE_CELLS: usize = 1;
 /// Quantities that are compared or judged elsewhere.
 pub const QUANTITIES: [&str; 16] = [
     "static_force_n",
