@@ -43,6 +43,7 @@ impl Fixture {
             points_per_direction: 2,
             point_spacing: step,
             weightless: false,
+            between_side_walls: true,
             implicit: false,
         };
         let mut points = Points::default();

@@ -259,6 +259,8 @@ pub struct Body {
     pub point_spacing: f64,
     /// Whether gravity leaves it alone; needs a velocity field of its own, as bodies in contact have.
     pub weightless: bool,
+    /// Whether the side walls touch it.
+    pub between_side_walls: bool,
     /// Whether it moves in implicit steps, so that its waves do not limit the time step; for elastic laws, in contact, held by
     /// clamps alone.
     pub implicit: bool,

@@ -100,6 +100,7 @@ fn wave_speed_is_the_root_of_modulus_over_density() {
         points_per_direction: 2,
         point_spacing: 0.1,
         weightless: false,
+        between_side_walls: true,
         implicit: false,
     };
     // M = K + 4/3 G = 9 kPa, 1000 kg/m3.

@@ -183,6 +183,7 @@ fn balance_nodes<const SHARED: bool>(
             }
             nodes.motion[i] = [0.0; 4];
             nodes.strain_velocity[i] = [0.0; 2];
+            nodes.holds[first_hold..next_hold].iter_mut().for_each(Hold::let_go);
             continue;
         }
         let per_m = 1.0 / m;

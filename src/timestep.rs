@@ -58,6 +58,7 @@ mod tests {
             points_per_direction: 1,
             point_spacing: 1.0,
             weightless: false,
+            between_side_walls: true,
             implicit: false,
         }
     }

@@ -59,6 +59,7 @@ impl Brick {
             points_per_direction: self.per_cell,
             point_spacing: s,
             weightless: false,
+            between_side_walls: true,
             implicit: false,
         }
     }

@@ -50,6 +50,7 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
         points_per_direction: PER_CELL,
         point_spacing: step,
         weightless: false,
+        between_side_walls: true,
         implicit: false,
     };
     let corner = [0.0, 0.0].into();
@@ -107,6 +108,7 @@ pub fn barrier(spacing: f64) -> Simulation {
         points_per_direction: PER_CELL,
         point_spacing: step,
         weightless: false,
+        between_side_walls: true,
         implicit: false,
     };
     let plane =

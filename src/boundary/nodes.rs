@@ -43,6 +43,13 @@ enum HoldState {
     Sticking,
 }
 
+impl Hold {
+    /// There is nothing at the node in this step.
+    pub fn let_go(&mut self) {
+        (self.impulse, self.state) = ([0.0; 2], HoldState::Apart);
+    }
+}
+
 /// What a boundary received from, or did to, the material in one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tally {

@@ -287,3 +287,15 @@ fn a_clamp_prescribes_its_velocity_while_it_is_closed() {
     rough.release();
     assert_eq!(hold.clamped(&[rough]), None);
 }
+
+#[test]
+fn a_node_that_nothing_reaches_keeps_no_impulse() {
+    let (_, _, mut holds) = contact(&[plane([0.0, 1.0], Friction::Coulomb(0.4))], [0.0, 0.0], [0.0; 2], [0.3, -1.0]);
+    assert!(holds[0].vector_impulse()[1] > 0.0);
+    holds.iter_mut().for_each(Hold::let_go);
+    assert_eq!(holds[0].vector_impulse(), [0.0; 2]);
+    // Nor does it hold what strains the material.
+    let mut v = [0.3, -1.0];
+    project(&holds, &mut v);
+    assert_eq!(v, [0.3, -1.0]);
+}

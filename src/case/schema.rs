@@ -169,6 +169,16 @@ pub enum Integration {
 pub struct SideWalls {
     /// Coulomb friction coefficient, not negative. Default 0 (no side walls).
     pub friction: f64,
+    /// Names of the bodies that touch them. Default all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bodies: Option<Vec<String>>,
+}
+
+impl SideWalls {
+    /// Whether a body touches them.
+    pub fn act_on(&self, body: &str) -> bool {
+        self.bodies.as_ref().is_none_or(|names| names.iter().any(|name| name == body))
+    }
 }
 
 /// The stages of a run, in the order in which they happen.

@@ -166,34 +166,42 @@ pub struct FieldCell {
     pub fill: f64,
     /// Mass-weighted mean velocity, m/s.
     pub v: [f64; 2],
+    /// Mass-weighted mean of the pressure (a third of the trace of the stress, positive in compression), Pa.
+    pub pressure: f64,
+    /// Mass-weighted mean of the equivalent plastic shear strain since the start.
+    pub plastic_shear: f64,
 }
 
-/// Mean velocities in the grid cells that hold material, column by column.
+/// Means in the grid cells that hold material, column by column.
 pub fn velocity_field(simulation: &Simulation, barrier: Option<usize>) -> Vec<FieldCell> {
     let h = simulation.spacing();
     let mut points: Vec<_> = flowing(simulation, barrier)
         .map(|(b, p)| {
             let body = &simulation.bodies()[b];
             let cell = ((p.x[0] / h).floor() as i64, (p.x[1] / h).floor() as i64);
-            (cell, body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO), p.v)
+            (cell, body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO), p)
         })
         .collect();
     points.sort_by_key(|p| p.0);
     points
         .chunk_by(|a, b| a.0 == b.0)
         .map(|cell| {
-            let (mut mass, mut volume, mut momentum) = (0.0, 0.0, [0.0; 2]);
-            for (_, m, v, u) in cell {
+            let (mut mass, mut volume, mut momentum, mut pressure, mut shear) = (0.0, 0.0, [0.0; 2], 0.0, 0.0);
+            for (_, m, v, p) in cell {
                 mass += m;
                 volume += v;
-                momentum[0] += m * u[0];
-                momentum[1] += m * u[1];
+                momentum[0] += m * p.v[0];
+                momentum[1] += m * p.v[1];
+                pressure -= m * p.state.stress.mean();
+                shear += m * p.state.plastic_shear;
             }
             let (i, j) = cell[0].0;
             FieldCell {
                 x: [(i as f64 + 0.5) * h, (j as f64 + 0.5) * h],
                 fill: volume / (h * h * simulation.thickness()),
                 v: [momentum[0] / mass, momentum[1] / mass],
+                pressure: pressure / mass,
+                plastic_shear: shear / mass,
             }
         })
         .collect()

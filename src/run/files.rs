@@ -224,6 +224,8 @@ impl Folder {
                     "velocity_x_m_per_s",
                     "velocity_y_m_per_s",
                     "speed_m_per_s",
+                    "pressure_pa",
+                    "plastic_shear_strain",
                 ],
             )?,
             structure: optional(bends, "barrier.csv", &STRUCTURE_COLUMNS)?,
@@ -318,7 +320,10 @@ impl Recorder for Folder {
 
     fn field(&mut self, time: f64, cells: &[FieldCell]) -> Result<(), OutputError> {
         let Some(table) = &mut self.field else { return Ok(()) };
-        cells.iter().try_for_each(|c| table.row(&[time, c.x[0], c.x[1], c.fill, c.v[0], c.v[1], c.v[0].hypot(c.v[1])]))
+        let values = |c: &FieldCell| {
+            [time, c.x[0], c.x[1], c.fill, c.v[0], c.v[1], c.v[0].hypot(c.v[1]), c.pressure, c.plastic_shear]
+        };
+        cells.iter().try_for_each(|c| table.row(&values(c)))
     }
 
     fn frame(&mut self, simulation: &Simulation) -> Result<(), OutputError> {

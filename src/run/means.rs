@@ -6,6 +6,8 @@ use super::records::HistoryRow;
 pub(super) const STATIC_WINDOW: f64 = 0.3;
 /// Length of the mean behind the filtered peak, s: the paper's archive interval.
 const PEAK_WINDOW: f64 = 0.02;
+/// Force on the barrier above which the flow counts as arrived, N.
+const ARRIVAL_FORCE: f64 = 0.5;
 /// The force is static from when its mean over that interval stays within this share of the static force.
 const STATIC_BAND: f64 = 0.05;
 
@@ -37,6 +39,18 @@ pub(super) fn smoothed_peak(history: &[HistoryRow]) -> (f64, f64) {
     whole.fold((0.0, 0.0), |best, (from, to, mean)| if mean > best.0 { (mean, 0.5 * (from + to)) } else { best })
 }
 
+/// Largest of the samples that are the first at or after a whole multiple of `PEAK_WINDOW`.
+pub(super) fn archived_peak(history: &[HistoryRow]) -> f64 {
+    let frame = |row: &HistoryRow| (row.time / PEAK_WINDOW * (1.0 + 1e-9)).floor();
+    let frames = history.windows(2).filter(|p| frame(&p[1]) > frame(&p[0]));
+    frames.map(|p| p[1].normal).fold(0.0, f64::max)
+}
+
+/// When the normal force first exceeds `ARRIVAL_FORCE`.
+pub(super) fn arrival(history: &[HistoryRow]) -> Option<f64> {
+    history.iter().find(|r| r.normal > ARRIVAL_FORCE).map(|r| r.time)
+}
+
 /// End of the last interval of `PEAK_WINDOW` whose mean is farther from the static force than `STATIC_BAND`.
 pub(super) fn time_to_static(history: &[HistoryRow], static_force: f64) -> f64 {
     let off = running_means(history).filter(|m| (m.2 - static_force).abs() > STATIC_BAND * static_force.abs());
@@ -47,4 +61,19 @@ pub(super) fn time_to_static(history: &[HistoryRow], static_force: f64) -> f64 {
 pub(super) fn impulse(history: &[HistoryRow], from: f64, to: f64) -> f64 {
     let pairs = history.windows(2).filter(|p| p[1].time > from && p[1].time <= to);
     pairs.map(|p| p[1].normal * (p[1].time - p[0].time)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_archive_misses_what_lies_between_its_frames() {
+        let row = |ms: f64, normal: f64| HistoryRow { time: 1e-3 * ms, normal, ..HistoryRow::default() };
+        let history: Vec<_> = (0..100).map(|k| row(f64::from(k) + 0.3, f64::from(k))).collect();
+        // Frames at 20, 40, 60 and 80 ms are the samples at 20.3 ms and so on.
+        assert_eq!(archived_peak(&history), 80.0);
+        assert_eq!(archived_peak(&history[..80]), 60.0);
+        assert_eq!(archived_peak(&[row(1.0, 5.0)]), 0.0);
+    }
 }

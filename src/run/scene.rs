@@ -57,6 +57,7 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
         points_per_direction: f64::from(case.grid.particles_per_cell).sqrt().round() as usize,
         point_spacing: spacing,
         weightless: b.weightless,
+        between_side_walls: case.side_walls.act_on(&b.name),
         implicit: b.integration == case::Integration::Implicit,
     };
     (body, particles)

@@ -1,8 +1,10 @@
 //! What a run says of a barrier that is a body.
 
 use super::experiment::Experiment;
+use super::means::{archived_peak, arrival};
 use super::records::Records;
 use crate::gauge::StructureSample;
+use crate::ledger::EnergyBalance;
 use serde::Serialize;
 
 /// Length of the means behind "final" values, s.
@@ -18,6 +20,13 @@ const BALANCED: f64 = 1e-9;
 pub struct StructureResults {
     /// Height of the face above the foot, m.
     pub height_m: f64,
+    /// Largest of the samples of the contact force that are nearest to whole multiples of 20 ms, N: what an archive of that interval
+    /// shows of the peak.
+    pub peak_force_50hz_n: f64,
+    /// Share of the energy at release that was kinetic when the flow arrived.
+    pub kinetic_at_arrival: f64,
+    /// Share of the energy at release that was gone by then.
+    pub dissipated_at_arrival: f64,
     /// Largest deflection of the tip away from the material at any time, m.
     pub tip_deflection_max_m: f64,
     /// Largest deflection anywhere on the face when the mean force of a sample was largest, m.
@@ -68,8 +77,14 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Stru
     let clamp = gauge.peak_clamp_force();
     let tip = mean(|s| s.bend.tip);
     let height = gauge.face().height();
+    let arrival = arrival(&records.history);
+    let arrived = records.energy.iter().find(|r| arrival.is_some_and(|t| r.time >= t)).map(|r| r.balance.clone());
+    let share = |value: fn(&EnergyBalance) -> f64| arrived.as_ref().map_or(f64::NAN, |b| value(b) / b.initial);
     Some(StructureResults {
         height_m: height,
+        peak_force_50hz_n: archived_peak(&records.history),
+        kinetic_at_arrival: share(|b| b.kinetic),
+        dissipated_at_arrival: share(|b| b.initial - b.kinetic - b.gravitational - b.elastic),
         tip_deflection_max_m: largest(|s| s.bend.tip),
         deflection_at_peak_m: bent.0,
         deflection_at_peak_height_m: bent.1,

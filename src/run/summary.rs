@@ -1,15 +1,13 @@
 //! What a run says: inputs resolved, results, ledgers, warnings.
 
 use super::experiment::{End, Experiment};
-use super::means::{STATIC_WINDOW, impulse, late_mean, smoothed_peak, time_to_static};
+use super::means::{STATIC_WINDOW, arrival, impulse, late_mean, smoothed_peak, time_to_static};
 use super::records::{HistoryRow, MomentumRow, Records};
 use super::structure::{self, StructureResults};
 use crate::boundary::Friction;
 use crate::case::Case;
 use serde::Serialize;
 
-/// Force on the barrier above which the flow counts as arrived, N.
-const ARRIVAL_FORCE: f64 = 0.5;
 /// Time after arrival over which the impulse of the impact is taken, s.
 const IMPACT_WINDOW: f64 = 0.5;
 
@@ -313,7 +311,7 @@ fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults>
     let static_force = late(|r| r.normal);
     let static_moment = late(|r| r.moment);
     let peak = smoothed_peak(history);
-    let arrival = history.iter().find(|r| r.normal > ARRIVAL_FORCE).map(|r| r.time);
+    let arrival = arrival(history);
     Some(BarrierResults {
         arrival_time_s: arrival,
         peak_force_step_n: gauge.peak_force().value,
@@ -457,7 +455,7 @@ fn passages(case: &Case, records: &Records) -> Vec<FrontPassage> {
     let mut passages: Vec<_> =
         stations.filter_map(|&x| records.history.iter().find(|r| r.front.x >= x).map(|row| at(row, x))).collect();
     // Just before the barrier is touched.
-    if let Some(k) = records.history.iter().position(|r| r.normal > ARRIVAL_FORCE)
+    if let Some(k) = records.history.iter().position(|r| Some(r.time) == arrival(&records.history))
         && k > 0
     {
         let row = &records.history[k - 1];

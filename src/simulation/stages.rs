@@ -174,5 +174,6 @@ impl Step<'_> {
 }
 
 fn constants(body: &Body, side_friction: f64) -> PointConstants {
+    let side_friction = if body.between_side_walls { side_friction } else { 0.0 };
     PointConstants { mass: body.point_mass, volume: body.point_volume, side_friction }
 }

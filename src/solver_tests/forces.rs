@@ -29,9 +29,13 @@ fn side_walls_brake_with_the_out_of_plane_pressure() {
         assert!(close(drag.work, 0.5 * mass * 0.25 * (left * left - 1.0)), "{drag:?}");
         assert_eq!(sim.energy_balance(&sim.stock(), [0.0; 2]).side_walls, -drag.work);
         // In 42 steps it comes to rest, and stays there.
+        let mut free = scene.clone();
         let sim = run(scene, 60);
         assert!(moves_with(&sim, if rate > 0.0 { [0.0; 2] } else { v }));
         assert!(books_balance(&sim).abs() < 1e-12);
+        // A body that they do not touch goes on.
+        free.bodies[0].0.between_side_walls = false;
+        assert!(moves_with(&run(free, 60), v));
     }
 }
 

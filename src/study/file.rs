@@ -37,10 +37,52 @@ pub struct Study {
 pub struct Axis {
     /// Column of the table; ends in the unit.
     pub name: String,
-    /// Fields that take the value; one or more.
+    /// Fields that take the value.
+    #[serde(default)]
     pub fields: Vec<String>,
     /// The values, as they would be written in a case file.
+    #[serde(default)]
     pub values: Vec<Value>,
+    /// Values that stand for several changes at once, after those of `values`.
+    #[serde(default, rename = "level")]
+    pub levels: Vec<Level>,
+}
+
+/// A value of an axis and what it stands for.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Level {
+    /// What stands in the column.
+    pub value: Value,
+    /// Fields and their new values.
+    #[serde(default)]
+    pub set: toml::Table,
+    /// Fields that are taken out.
+    #[serde(default)]
+    pub unset: Vec<String>,
+}
+
+impl Axis {
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        self.values.len() + self.levels.len()
+    }
+
+    /// Whether it has no value.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A value and what it changes.
+    pub fn point(&self, k: usize) -> (&Value, Vec<Change>) {
+        match self.values.get(k) {
+            Some(value) => (value, self.fields.iter().map(|f| Change::field(f, value.clone())).collect()),
+            None => {
+                let Level { value, set, unset } = &self.levels[k - self.values.len()];
+                (value, vec![Change { set: set.clone(), unset: unset.clone(), ..Change::default() }])
+            }
+        }
+    }
 }
 
 /// One change with a name.
@@ -236,7 +278,7 @@ impl Study {
             return say("it has no case", "cases = [\"NAME.toml\"], relative to the study file");
         }
         for axis in &self.axes {
-            if axis.values.is_empty() || axis.fields.is_empty() {
+            if axis.is_empty() || axis.fields.is_empty() != axis.values.is_empty() {
                 return say(
                     &format!("axis `{}` has no value or no field", axis.name),
                     "values = [...], fields = [\"grid.spacing_m\"]",

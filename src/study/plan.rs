@@ -1,7 +1,7 @@
 //! From a study to its runs.
 
 use super::change::Change;
-use super::file::{Study, StudyError};
+use super::file::{Axis, Study, StudyError};
 use super::sampling::halton;
 use crate::case::{self, Case};
 use toml::{Table, Value};
@@ -114,16 +114,16 @@ fn points(study: &Study, columns: usize) -> Vec<Point> {
         points.push(point("base", ""));
     }
     points.extend(study.variants.iter().map(|v| Point { changes: vec![v.change()], ..point(&v.factor, &v.label) }));
-    let combinations: usize = study.axes.iter().map(|a| a.values.len()).product();
+    let combinations: usize = study.axes.iter().map(Axis::len).product();
     for k in 0..if study.axes.is_empty() { 0 } else { combinations } {
         let mut p = point("axis", "");
         let mut rest = k;
         // The last axis varies fastest.
         for (column, axis) in study.axes.iter().enumerate().rev() {
-            let value = &axis.values[rest % axis.values.len()];
-            rest /= axis.values.len();
+            let (value, changes) = axis.point(rest % axis.len());
+            rest /= axis.len();
             p.values[column] = shown(value);
-            p.changes.extend(axis.fields.iter().map(|f| Change::field(f, value.clone())));
+            p.changes.extend(changes);
         }
         points.push(p);
     }

@@ -1,6 +1,7 @@
 //! Numbers that a run is reduced to.
 
 use crate::run::Summary;
+use crate::run::structure::StructureResults;
 use crate::run::summary::{BarrierResults, DepositResults, FrontPassage};
 
 /// A number of a run.
@@ -16,6 +17,10 @@ pub struct Quantity {
 
 fn barrier(summary: &Summary, value: fn(&BarrierResults) -> f64) -> f64 {
     summary.barrier.as_ref().map_or(f64::NAN, value)
+}
+
+fn structure(summary: &Summary, value: fn(&StructureResults) -> f64) -> f64 {
+    summary.structure.as_ref().map_or(f64::NAN, value)
 }
 
 fn deposit(summary: &Summary, value: fn(&DepositResults) -> f64) -> f64 {
@@ -75,6 +80,19 @@ pub const QUANTITIES: &[Quantity] = quantities![
     "momentum_closure_1", "momentum not accounted for", |s| s.momentum.closure_max;
     "penetration_m", "deepest penetration (m)", |s| s.momentum.penetration_max_m;
     "end_s", "end of the run (s)", |s| s.stepping.end_time_s;
+    "peak_50hz_n", "largest force of samples every 20 ms (N)", |s| structure(s, |b| b.peak_force_50hz_n);
+    "peak_clamp_n", "largest force on the clamp in a step (N)", |s| structure(s, |b| b.peak_clamp_force_step_n);
+    "static_clamp_n", "static force on the clamp (N)", |s| structure(s, |b| b.clamp_normal_final_n);
+    "static_clamp_moment_n_m", "static moment on the clamp (N m)", |s| structure(s, |b| b.clamp_moment_final_n_m);
+    "tip_final_m", "final deflection of the tip (m)", |s| structure(s, |b| b.tip_deflection_final_m);
+    "tip_max_m", "largest deflection of the tip (m)", |s| structure(s, |b| b.tip_deflection_max_m);
+    "peak_deflection_m", "largest deflection at the peak (m)", |s| structure(s, |b| b.deflection_at_peak_m);
+    "peak_deflection_height_m", "its height (m)", |s| structure(s, |b| b.deflection_at_peak_height_m);
+    "peak_barrier_velocity_m_per_s", "velocity of the barrier at the peak (m/s)", |s| structure(s, |b| b.velocity_at_peak_m_per_s);
+    "imbalance_1", "contact less clamp and inertia, over their sum", |s| structure(s, |b| b.imbalance_max);
+    "gap_cells", "widest gap in the barrier (cells)", |s| structure(s, |b| b.gap_max_cells);
+    "arrival_kinetic_1", "kinetic share of E0 at the arrival", |s| structure(s, |b| b.kinetic_at_arrival);
+    "arrival_dissipated_1", "share of E0 dissipated before the arrival", |s| structure(s, |b| b.dissipated_at_arrival);
 ];
 
 /// All quantities of a run.

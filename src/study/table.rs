@@ -66,10 +66,13 @@ impl Runs {
             return runs;
         }
         let Ok(mut reader) = csv::Reader::from_path(path) else { return runs };
-        if reader.headers().is_ok_and(|h| h.iter().eq(runs.header().iter().map(String::as_str))) {
+        let Ok(header) = reader.headers().cloned() else { return runs };
+        if header.iter().take(FIRST.len() + runs.columns.len() + MIDDLE.len()).eq(runs.header(&[]).iter()) {
             let at = FIRST.len() + runs.columns.len();
+            let places: Vec<_> = QUANTITIES.iter().map(|q| header.iter().position(|h| h == q.name)).collect();
             for record in reader.records().filter_map(Result::ok) {
-                let values = record.iter().skip(at + MIDDLE.len()).map(str::to_string).collect();
+                let value = |place: &Option<usize>| place.and_then(|k| record.get(k)).unwrap_or_default().to_string();
+                let values = places.iter().map(value).collect();
                 let row = Row { ended: record[at + 1].to_string(), values };
                 if row.is_complete() {
                     runs.rows.insert(record[at].to_string(), row);
@@ -79,11 +82,11 @@ impl Runs {
         runs
     }
 
-    fn header(&self) -> Vec<String> {
+    /// Columns of the table with those quantities that are `used`.
+    fn header(&self, used: &[bool]) -> Vec<String> {
         let first = FIRST.iter().map(ToString::to_string).chain(self.columns.iter().cloned());
-        first
-            .chain(MIDDLE.iter().chain(&QUANTITIES.iter().map(|q| q.name).collect::<Vec<_>>()).map(ToString::to_string))
-            .collect()
+        let measured = QUANTITIES.iter().zip(used).filter(|(_, used)| **used).map(|(q, _)| q.name.to_string());
+        first.chain(MIDDLE.iter().map(ToString::to_string)).chain(measured).collect()
     }
 
     /// The row of a run, if it is finished.
@@ -99,17 +102,20 @@ impl Runs {
     /// The table of the runs that are finished, in the order of the plan.
     pub fn csv(&self, plan: &[PlannedRun]) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
+        // Quantities that no run has, as those of a bending barrier where there is none, are left out.
+        let rows: Vec<&Row> = plan.iter().filter_map(|run| self.get(run)).collect();
+        let used: Vec<bool> =
+            (0..QUANTITIES.len()).map(|k| rows.iter().any(|r| r.values.get(k).is_some_and(|v| !v.is_empty()))).collect();
         let written = (|| -> csv::Result<()> {
-            writer.write_record(self.header())?;
+            writer.write_record(self.header(&used))?;
             for run in plan {
                 let Some(row) = self.get(run) else { continue };
                 let replicate = run.replicate.to_string();
                 let first = [&run.case_name, &run.factor, &run.label, &replicate].map(String::as_str);
                 let values = run.values.iter().map(String::as_str);
                 let middle = [run.key.as_str(), row.ended.as_str()];
-                writer.write_record(
-                    first.into_iter().chain(values).chain(middle).chain(row.values.iter().map(String::as_str)),
-                )?;
+                let measured = row.values.iter().zip(&used).filter(|(_, used)| **used).map(|(v, _)| v.as_str());
+                writer.write_record(first.into_iter().chain(values).chain(middle).chain(measured))?;
             }
             Ok(())
         })();

@@ -1,3 +1,4 @@
+use super::quantities::QUANTITIES;
 use super::*;
 use std::num::NonZero;
 
@@ -68,6 +69,36 @@ fn every_run_is_planned_with_its_change() {
     assert!(runs.iter().all(|r| r.case.numerics.cfl == 0.2));
     // The first value of the axis is the base.
     assert!(runs[0].key == runs[2].key && runs[0].key != runs[1].key && runs[2].key != runs[3].key);
+}
+
+#[test]
+fn a_level_stands_for_several_changes() {
+    let levels = "[[axis]]\nname = \"stiffness_1\"\n[[axis.level]]\nvalue = 1e-6\nset = { \"materials.rubber.young_pa\" = 2e5 }\n\
+                  [[axis.level]]\nvalue = 2\nset = { \"materials.rubber.young_pa\" = 4e5, \"numerics.cfl\" = 0.1 }\n";
+    let text = format!("title = \"levels\"\ncases = [\"drop.toml\"]\n{levels}");
+    let (_, runs) = planned(&text).expect("a study");
+    let seen: Vec<_> =
+        runs.iter().map(|r| (r.values[0].as_str(), r.case.materials["rubber"].young_pa, r.case.numerics.cfl)).collect();
+    assert_eq!(seen, [("1e-6", 2e5, 0.3), ("2", 4e5, 0.1)]);
+}
+
+#[test]
+fn quantities_that_no_run_has_are_left_out_of_the_table() {
+    let (study, runs) = planned(STUDY).expect("a study");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("runs.csv");
+    let mut table = Runs::open(&path, &study.columns());
+    let mut numbers = vec![f64::NAN; QUANTITIES.len()];
+    (numbers[2], numbers[5]) = (1.5, -2.0);
+    table.insert(&runs[0], Row::new("at rest", &numbers));
+    table.save(&runs).expect("a table");
+    let text = std::fs::read_to_string(&path).expect("a table");
+    let header = format!("key,ended,{},{}", QUANTITIES[2].name, QUANTITIES[5].name);
+    assert!(text.lines().next().is_some_and(|l| l.ends_with(&header)), "{text}");
+    // And it is read back as it was.
+    let again = Runs::open(&path, &study.columns());
+    assert_eq!(again.get(&runs[0]), table.get(&runs[0]));
+    assert_eq!(again.csv(&runs), text);
 }
 
 #[test]

@@ -67,6 +67,9 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             .map(|f| f.get(quantity.name))
             .map(|x| if x.is_finite() { number(x) } else { String::new() })
             .collect();
+        if numbers.iter().all(String::is_empty) {
+            continue;
+        }
         text += &format!("{},{}\n", quantity.name, numbers.join(","));
     }
     outcome.tables.push(("barrier_rigid_quantities".into(), text));

@@ -44,8 +44,8 @@ pub fn rows(table: &Table, columns: &[&str]) -> Result<Vec<Run>, OutputError> {
     let (cases, factors, labels) = (texts("case")?, texts("factor")?, texts("label")?);
     let (replicates, ended) = (texts("replicate")?, texts("ended")?);
     let sets = columns.iter().map(|c| Ok((*c, texts(c)?))).collect::<Result<Vec<_>, OutputError>>()?;
-    let numbers =
-        QUANTITIES.iter().map(|q| Ok((q.name, table.column(q.name)?))).collect::<Result<Vec<_>, OutputError>>()?;
+    let known = QUANTITIES.iter().filter(|q| table.names().iter().any(|name| name == q.name));
+    let numbers = known.map(|q| Ok((q.name, table.column(q.name)?))).collect::<Result<Vec<_>, OutputError>>()?;
     let run = |k: usize| Run {
         case: cases[k].clone(),
         factor: factors[k].clone(),

@@ -55,6 +55,7 @@ impl Bench {
             points_per_direction: per_cell,
             point_spacing: H / per_cell as f64,
             weightless: false,
+            between_side_walls: true,
             implicit: false,
         };
         let mut random = Lcg::new(7 + per_cell as u64);

@@ -119,6 +119,21 @@ fn a_barrier_may_be_a_body_in_a_contact() {
 }
 
 #[test]
+fn side_walls_touch_the_bodies_that_are_named() {
+    let walls = |names: &str| {
+        let text = with(CONTACT);
+        assert!(text.contains("friction = 0.0 "));
+        text.replacen("friction = 0.0 ", &format!("friction = 0.3\nbodies = [{names}] "), 1)
+    };
+    let case = parse(&walls("\"sand\""), "fence.toml").unwrap_or_else(|e| panic!("{e}")).case;
+    assert!(case.side_walls.act_on("sand") && !case.side_walls.act_on("fence"));
+    assert!(parse(&with(CONTACT), "fence.toml").expect("valid").case.side_walls.act_on("fence"));
+    let report = report_of(&walls("\"snad\""));
+    assert!(report.contains("side_walls.bodies[0] = \"snad\"") && report.contains("sand"), "{report}");
+    assert!(report_of(&walls("")).contains("at least one name"));
+}
+
+#[test]
 fn only_a_body_in_a_contact_can_be_weightless() {
     let light = |contact: &str| {
         with(contact).replacen("material = \"plastic\"", "material = \"plastic\"\nweightless = true", 1)

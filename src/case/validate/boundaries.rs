@@ -100,11 +100,15 @@ impl Checker<'_> {
     }
 
     fn acts_on(&mut self, at: &KeyPath, boundary: &Boundary) {
-        let Some(names) = &boundary.bodies else { return };
-        let path = at.key("bodies");
+        self.names_of_bodies(&at.key("bodies"), boundary.bodies.as_deref());
+    }
+
+    /// A list that says which bodies something acts on.
+    pub(super) fn names_of_bodies(&mut self, path: &KeyPath, names: Option<&[String]>) {
+        let Some(names) = names else { return };
         if names.is_empty() {
             let fix = "name a body, or leave the line out for all bodies";
-            self.not_allowed(&path, names, "at least one name", fix);
+            self.not_allowed(path, &names, "at least one name", fix);
         }
         for (k, name) in names.iter().enumerate() {
             let bodies = self.case.bodies.iter().map(|b| b.name.as_str());

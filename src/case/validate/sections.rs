@@ -55,7 +55,9 @@ impl Checker<'_> {
         let at = KeyPath::top("domain");
         self.interval(&at.key("x_m"), domain.x_m);
         self.interval(&at.key("y_m"), domain.y_m);
-        self.not_negative(&KeyPath::top("side_walls").key("friction"), self.case.side_walls.friction, 0.0);
+        let (at, walls) = (KeyPath::top("side_walls"), &self.case.side_walls);
+        self.not_negative(&at.key("friction"), walls.friction, 0.0);
+        self.names_of_bodies(&at.key("bodies"), walls.bodies.as_deref());
     }
 
     fn stages(&mut self) {

@@ -48,7 +48,6 @@ impl Coupling {
         }
         implicit.iter_mut().for_each(ImplicitBody::weigh);
         for pass in 0..PASSES {
-            implicit.iter_mut().for_each(|b| b.offer(&mut fields[b.field]));
             self.pass(fields, boundaries, implicit, false);
             let mut settled = true;
             for body in implicit.iter_mut() {
@@ -60,7 +59,6 @@ impl Coupling {
                 break;
             }
         }
-        implicit.iter_mut().for_each(|b| b.offer(&mut fields[b.field]));
     }
 
     /// Solves all nodes once; `last` says whether it counts.
@@ -83,11 +81,6 @@ impl Coupling {
             if last || next > first {
                 self.solve(n, first..next, fields, boundaries, implicit, last);
             }
-        }
-        if last {
-            implicit.iter_mut().for_each(|b| {
-                b.settle();
-            });
         }
     }
 
@@ -116,6 +109,12 @@ impl Coupling {
     ) {
         let shared = &self.nodes[n];
         let own = &self.sides[shared.sides.clone()];
+        if !pending.is_empty() {
+            for body in implicit.iter() {
+                let at = own.iter().filter(|at| at.field == body.field);
+                at.for_each(|at| body.offer(body.slot(at.band, at.index), &mut fields[at.field]));
+            }
+        }
         let mut sides: Sides = Default::default();
         self.holds.clear();
         let mut ends = [0; MAX_SIDES];
@@ -156,11 +155,12 @@ impl Coupling {
             }
             for body in implicit.iter_mut() {
                 let Some(k) = own.iter().position(|at| at.field == body.field) else { continue };
-                let slot = body.slot(own[k].band, own[k].index);
+                let mut impulse = [0.0; 2];
                 for touch in touches.iter().filter(|t| t.sides.contains(&k)) {
-                    let sign = if touch.sides[1] == k { 1.0 } else { -1.0 };
-                    body.push(slot, touch.vector_impulse().map(|p| sign * p));
+                    let (sign, p) = (if touch.sides[1] == k { 1.0 } else { -1.0 }, touch.vector_impulse());
+                    impulse = [impulse[0] + sign * p[0], impulse[1] + sign * p[1]];
                 }
+                body.take(body.slot(own[k].band, own[k].index), impulse);
             }
             if !last {
                 return;

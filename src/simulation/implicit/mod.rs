@@ -10,9 +10,10 @@
 //! sand, and much for waves that such steps cannot follow. What it takes is measured. The trapezoidal rule, which takes nothing,
 //! lets contact, whose law holds at the end of a step, feed such waves until the run breaks down.
 //!
-//! Contact and body are solved together. Contact is solved node by node as for any body, with the velocity that the node has
-//! under all other contact impulses and a mass that is never more than the body shows to all touching nodes at once (row sums of
-//! the response, Gershgorin's bound); repeated, impulses approach those at which body and contact law agree at every node.
+//! Contact and body are solved together by block Gauss-Seidel iteration (Jean 1999): contact is solved node by node as for any
+//! body, with the velocity that the node has under the latest impulses at all other nodes and a mass that is never more than the
+//! body shows at this node, until impulses no longer change: then body and contact law agree at every node. Where they do not,
+//! the ledger counts losses that no body has had, so that the energy does not close.
 
 mod assembly;
 mod banded;
@@ -21,8 +22,8 @@ mod motion;
 use super::field::VelocityField;
 use banded::Banded;
 
-/// Most repetitions of contact in a step, and the change of velocity, as a share of the largest, at which they end.
-pub(super) const PASSES: usize = 60;
+/// Most sweeps over the touched nodes in a step, and the change of velocity, as a share of the largest, at which they end.
+pub(super) const PASSES: usize = 1000;
 pub(super) const SETTLED: f64 = 1e-7;
 
 /// A point with its place and state at the last sort, and the nodes it reaches.
@@ -44,11 +45,11 @@ struct Shared {
     response: [Vec<f64>; 2],
     /// Contact impulse of the step, N s.
     impulse: [f64; 2],
-    /// Impulse of the pass that is going on, N s.
-    next: [f64; 2],
     /// Velocity per impulse that contact is told, 1/kg.
     mobility: f64,
     touched: bool,
+    /// Place among the touched nodes.
+    rank: usize,
 }
 
 /// A body in implicit steps.
@@ -85,7 +86,9 @@ pub(super) struct ImplicitBody {
     shared: Vec<Shared>,
     /// First of the shared nodes of each band.
     slots: Vec<usize>,
-    /// Largest number of passes in a step.
+    /// Largest change of a velocity in this sweep and the largest velocity that contact gave, m/s.
+    change: [f64; 2],
+    /// Largest number of sweeps in a step.
     pub passes: usize,
 }
 
@@ -124,17 +127,8 @@ impl ImplicitBody {
                     Some(s) => s.response,
                     None => Default::default(),
                 };
-                let (impulse, next) = ([0.0; 2], [0.0; 2]);
-                self.shared.push(Shared {
-                    node,
-                    band: b,
-                    index,
-                    response,
-                    impulse,
-                    next,
-                    mobility: 0.0,
-                    touched: false,
-                });
+                let (impulse, mobility, touched, rank) = ([0.0; 2], 0.0, false, 0);
+                self.shared.push(Shared { node, band: b, index, response, impulse, mobility, touched, rank });
             }
         }
         self.touched.clear();
@@ -187,21 +181,23 @@ impl ImplicitBody {
         self.shared[slot].touched = true;
     }
 
-    /// Finds how much each touched node yields when all are pushed.
+    /// Finds how each touched node answers an impulse at each.
     pub fn weigh(&mut self) {
         let mut touched = std::mem::take(&mut self.touched);
         touched.clear();
         touched.extend((0..self.shared.len()).filter(|&k| self.shared[k].touched));
         self.answers.clear();
-        for &k in &touched {
+        for (rank, &k) in touched.iter().enumerate() {
             let node = self.shared[k].node;
             let first = self.answers.len();
             self.answers.extend(touched.iter().map(|&j| {
                 let at = |d: usize, e: usize| self.shared[j].response[d].get(2 * node + e).copied().unwrap_or(0.0);
                 [at(0, 0), at(1, 0), at(0, 1), at(1, 1)]
             }));
-            let size = |a: &[f64; 4]| a.iter().map(|x| x * x).sum::<f64>().sqrt();
-            self.shared[k].mobility = self.answers[first..].iter().map(size).sum();
+            // Frobenius's norm, no less than the largest eigenvalue: no sweep then overshoots.
+            let own = self.answers[first + rank];
+            self.shared[k].mobility = own.iter().map(|x| x * x).sum::<f64>().sqrt();
+            self.shared[k].rank = rank;
         }
         for s in self.shared.iter_mut().filter(|s| !s.touched) {
             s.impulse = [0.0; 2];
@@ -209,20 +205,16 @@ impl ImplicitBody {
         self.touched = touched;
     }
 
-    /// Tells contact how the shared nodes move under the impulses found so far.
-    pub fn offer(&mut self, field: &mut VelocityField) {
-        for i in 0..self.touched.len() {
-            let k = self.touched[i];
-            let v = self.velocity_at(i);
-            let Shared { node, band, index, impulse, mobility, .. } = self.shared[k];
-            let open = &mut field.bands[band].nodes.open[index];
-            if self.clamped.get(node).is_none_or(|c| *c) || mobility <= 0.0 {
-                open.free = v;
-            } else {
-                open.mass = 1.0 / mobility;
-                open.free = [v[0] - mobility * impulse[0], v[1] - mobility * impulse[1]];
-            }
-            self.shared[k].next = [0.0; 2];
+    /// Tells contact how a shared node that is touched moves under the impulses found so far.
+    pub fn offer(&self, slot: usize, field: &mut VelocityField) {
+        let &Shared { node, band, index, impulse, mobility, rank, .. } = &self.shared[slot];
+        let v = self.velocity_at(rank);
+        let open = &mut field.bands[band].nodes.open[index];
+        if self.clamped.get(node).is_none_or(|c| *c) || mobility <= 0.0 {
+            open.free = v;
+        } else {
+            open.mass = 1.0 / mobility;
+            open.free = [v[0] - mobility * impulse[0], v[1] - mobility * impulse[1]];
         }
     }
 
@@ -238,24 +230,20 @@ impl ImplicitBody {
         v
     }
 
-    /// Adds an impulse that contact has found at a shared node, N s.
-    pub fn push(&mut self, slot: usize, impulse: [f64; 2]) {
-        let next = &mut self.shared[slot].next;
-        *next = [next[0] + impulse[0], next[1] + impulse[1]];
+    /// Takes over the impulse that contact has found at a shared node, N s.
+    pub fn take(&mut self, slot: usize, impulse: [f64; 2]) {
+        let s = &mut self.shared[slot];
+        for (old, new) in s.impulse.iter().zip(impulse) {
+            let [change, largest] = &mut self.change;
+            *change = change.max((new - old).abs() * s.mobility);
+            *largest = largest.max(new.abs() * s.mobility);
+        }
+        s.impulse = impulse;
     }
 
-    /// Takes over the impulses of a pass. Returns the largest change of a velocity and the largest velocity, m/s.
+    /// Ends a sweep: the largest change of a velocity in it and the largest velocity that contact gave, m/s.
     pub fn settle(&mut self) -> [f64; 2] {
-        let (mut change, mut largest) = (0.0f64, 0.0f64);
-        for &k in &self.touched {
-            let s = &mut self.shared[k];
-            for d in 0..2 {
-                change = change.max((s.next[d] - s.impulse[d]).abs() * s.mobility);
-                largest = largest.max(s.next[d].abs() * s.mobility);
-            }
-            s.impulse = s.next;
-        }
-        [change, largest]
+        std::mem::take(&mut self.change)
     }
 }
 
