@@ -2,8 +2,9 @@
 
 use super::{Context, Failure};
 use crate::case::Case;
-use crate::output::Table;
+use crate::output::{OutputError, Table};
 use crate::study::{PlannedRun, Runs, Study, StudyError, one, plan, run};
+use crate::verification::report::quoted;
 use std::num::NonZero;
 
 /// A study of the project and the record of its runs.
@@ -55,15 +56,16 @@ impl Record {
     pub fn rows(&self) -> Result<Vec<RecordedRun>, Failure> {
         let (study, plan) = self.plan()?;
         let columns: Vec<String> = study.columns().into_iter().map(String::from).collect();
-        let rows = plan.into_iter().zip(self.runs.lines().skip(1)).map(|(planned, line)| {
+        let mut lines = self.runs.lines();
+        let header = lines.next().unwrap_or_default();
+        let rows = plan.into_iter().zip(lines).map(|(planned, line)| {
             let columns = columns.clone();
             let (what, recorded, cost) = (planned.what.clone(), line.to_string(), cost(&planned.case));
             let anew = move || {
                 let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
                 let mut runs = Runs::in_memory(&columns);
                 runs.insert(&planned, one(&planned, &mut |_| true));
-                let text = runs.csv(std::slice::from_ref(&planned));
-                Ok(text.lines().nth(1).unwrap_or_default().to_string())
+                as_in(header, &runs.csv(std::slice::from_ref(&planned)))
             };
             RecordedRun { what, recorded, cost, anew: Box::new(anew) }
         });
@@ -91,6 +93,19 @@ impl Record {
         }
         Ok(runs.csv(plan))
     }
+}
+
+/// The line of a table of one run, with the columns of a header. A table has the quantities that one of its runs has: what the run
+/// lacks is an empty cell, and what the header lacks is added to the line, which then differs from any on record.
+fn as_in(header: &str, one: &str) -> Result<String, Failure> {
+    let table = Table::parse(one, "a run")?;
+    let wanted: Vec<&str> = header.split(',').collect();
+    let more = table.names().iter().map(String::as_str).filter(|name| !wanted.contains(name));
+    let cells = wanted.iter().copied().chain(more).map(|name| {
+        let cell = if table.names().iter().any(|n| n == name) { table.cells(name)?.remove(0) } else { String::new() };
+        Ok(quoted(&cell))
+    });
+    Ok(cells.collect::<Result<Vec<_>, OutputError>>()?.join(","))
 }
 
 /// A run that is on record.
@@ -189,6 +204,14 @@ mod tests {
         let mut changed = text.clone();
         changed.replace_range(place..=place, if digit == '7' { "3" } else { "7" });
         assert_eq!(wrong(&record(&changed)), [changed.lines().nth(2).expect("two runs")]);
+    }
+
+    #[test]
+    fn a_line_has_the_columns_of_its_record() {
+        let one = "case,label,key,a\nsteep,\"0.2 x 0.5 m, dense\",f00,1.5\n";
+        let line = |header| as_in(header, one).expect("a line");
+        assert_eq!(line("case,label,key,a"), "steep,\"0.2 x 0.5 m, dense\",f00,1.5");
+        assert_eq!(line("case,key,a,b"), "steep,f00,1.5,,\"0.2 x 0.5 m, dense\"");
     }
 
     #[test]

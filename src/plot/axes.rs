@@ -244,6 +244,9 @@ mod tests {
         assert_eq!(log.ticks.iter().map(|t| log.label(*t)).collect::<Vec<_>>(), ["10⁻³", "10⁻²", "10⁻¹", "1", "10"]);
         let named = Axis::named(vec![0.0, 1.0], vec!["8".into(), "16".into()]);
         assert!(named.label(1.0) == "16" && named.lo < 0.0 && named.hi > 1.0);
+        let mut named = named;
+        named.unname(|place, name| place > 0.5 && name == "16");
+        assert_eq!((named.label(0.0), named.label(1.0)), ("8".into(), String::new()));
     }
 
     #[test]

@@ -20,6 +20,8 @@ const ROW_PX: f64 = 24.0;
 const HALF_PX: f64 = 7.0;
 /// Height of the labels at the ends of bars.
 const LABEL_PX: f64 = 0.85 * SMALL_PX;
+/// Significant digits of the numbers.
+const DIGITS: usize = 3;
 const HEAD_PX: f64 = 40.0;
 const FOOT_PX: f64 = 46.0;
 
@@ -154,7 +156,12 @@ fn select<'a>(table: &Table, what: &Tornado<'a>, panel: &(&'a str, &'a str)) -> 
                 if what.at_rest && !restless.is_empty() {
                     continue;
                 }
-                let text = || format!("{}{restless} ({})", labels[k], significant(values[k], 3));
+                // What reads as the base says nothing.
+                let shown = significant(values[k], DIGITS);
+                if shown == significant(base, DIGITS) {
+                    continue;
+                }
+                let text = || format!("{}{restless} ({shown})", labels[k]);
                 if values[k] < ends[0].0 {
                     ends[0] = (values[k], text());
                 }
@@ -175,4 +182,62 @@ fn select<'a>(table: &Table, what: &Tornado<'a>, panel: &(&'a str, &'a str)) -> 
         _ => None,
     };
     Ok(Panel { title: panel.1, base, noise, factors: drawn })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: &str = "case,factor,label,ended,force_n\n\
+        steep,base,,at rest,10\n\
+        steep,gate,slow,at rest,4\n\
+        steep,gate,fast,at rest,11\n\
+        steep,cone,other,at rest,10.001\n\
+        steep,damping,little,at rest,12\n\
+        steep,damping,none,end time,19\n\
+        steep,noise,low,,9.5\n\
+        steep,noise,high,,10.5\n";
+
+    fn panel(at_rest: bool) -> Panel<'static> {
+        let what = Tornado { panels: &[], column: "force_n", title: "force (N)", at_rest };
+        select(&Table::parse(TABLE, "table.csv").expect("a table"), &what, &("steep", "steep")).expect("a panel")
+    }
+
+    #[test]
+    fn runs_that_did_not_come_to_rest_are_named() {
+        let ends = |panel: Panel| panel.factors.into_iter().map(|f| (f.name, f.ends.map(|e| e.1))).collect::<Vec<_>>();
+        let wanted = |name: &str, low: &str, high: &str| (name.to_string(), [low.to_string(), high.to_string()]);
+        assert_eq!(
+            ends(panel(false)),
+            [
+                wanted("damping", "", "none, not at rest (19)"),
+                wanted("gate", "slow (4)", "fast (11)"),
+                wanted("cone", "", ""),
+            ]
+        );
+        // Where they do not count.
+        assert_eq!(
+            ends(panel(true)),
+            [
+                wanted("gate", "slow (4)", "fast (11)"),
+                wanted("damping", "", "little (12); none: not at rest"),
+                wanted("cone", "", ""),
+            ]
+        );
+    }
+
+    #[test]
+    fn there_is_room_for_every_label_and_not_much_more() {
+        let panel = panel(true);
+        let [left, right] = room(&panel, [4.0, 12.0], 600.0);
+        let px = |v: f64| 600.0 * (v - left) / (right - left);
+        let gaps: Vec<f64> = (panel.factors.iter().flat_map(|f| &f.ends).filter(|e| !e.1.is_empty()))
+            .map(|(v, label)| {
+                let free = if *v < panel.base { px(*v) } else { 600.0 - px(*v) };
+                free - text_width_px(label, LABEL_PX)
+            })
+            .collect();
+        assert!(gaps.iter().all(|g| *g > 10.0), "{gaps:?}");
+        assert!(gaps.iter().any(|g| *g < 14.0), "{gaps:?}");
+    }
 }

@@ -11,6 +11,7 @@ mod judge;
 pub mod noise;
 mod pages;
 mod physics;
+mod rules;
 mod runs;
 mod scatter;
 pub mod sensitivity;

@@ -1,7 +1,8 @@
 //! One thing at a time: what the inputs that the paper does not state, and those that it states, are worth.
 
-use super::baseline::{self, judge};
+use super::baseline;
 use super::read_case;
+use super::rules::judge;
 use super::runs::{self, Run};
 use super::scatter::Scatter;
 use crate::output::Table;

@@ -1,11 +1,11 @@
 //! The pages, as Markdown, from the tables.
 
-use super::super::{CASES, compare};
+use super::super::CASES;
+use super::extras::{closed_forms, not_compared, speeds};
 use super::table::{ROWS, WINDOW};
 use super::{FIGURES, Figure};
 use crate::check::significant;
 use crate::output::{OutputError, Table, write_text};
-use crate::validation::data;
 use std::path::Path;
 
 /// First words of the verdicts.
@@ -46,11 +46,11 @@ fn angle(case: &str) -> String {
 }
 
 /// Three digits; a dash where there is no number.
-fn three(x: f64) -> String {
+pub fn three(x: f64) -> String {
     if x.is_finite() { significant(x, 3) } else { "\u{2013}".into() }
 }
 
-fn two(x: f64) -> String {
+pub fn two(x: f64) -> String {
     if x.is_finite() { significant(x, 2) } else { "\u{2013}".into() }
 }
 
@@ -106,7 +106,7 @@ fn summary(rows: &Table, figure: &Figure) -> Result<String, OutputError> {
 }
 
 /// A published number with its half width, and its kind if it is not the column's.
-fn published(value: f64, half_width: f64, kind: &str) -> String {
+pub fn published(value: f64, half_width: f64, kind: &str) -> String {
     if !value.is_finite() {
         return "\u{2013}".into();
     }
@@ -215,66 +215,4 @@ fn grids(rows: &Table, figure: &Figure) -> Result<String, OutputError> {
         + "\nMeans of nine runs. Where they have no order of a half or more, half of their range stands for the error of the grid; an order \
            beyond two is more than the scheme has, and comes from the scatter of the means. Tables: \
            [`flume_baseline_grids.csv`](flume_baseline_grids.csv), [`flume_baseline_scatter.csv`](flume_baseline_scatter.csv).\n\n")
-}
-
-/// Speeds in the camera's window.
-fn speeds(window: &Table) -> Result<String, OutputError> {
-    let mut text = String::from(
-        "## Speed in the camera's window, the last half metre before the barrier\n\n\
-         | | quantity | measured | the authors' computation | ours, 0 s: the front meets the barrier | ours, 0 s: the gate opens |\n\
-         |---|---|---|---|---|---|\n",
-    );
-    let (cases, quantities, kinds) = (window.cells("case")?, window.cells("quantity")?, window.cells("kind")?);
-    let (values, widths) = (window.column("published")?, window.column("half_width")?);
-    let (fast, times) = (window.column("speed_p95_m_per_s")?, window.column("time_s")?);
-    // Two rows a number: one a clock.
-    for k in (0..window.rows().saturating_sub(1)).step_by(2) {
-        let stated = published(values[k], widths[k], "");
-        let (measured, authors) = match kinds[k] == "measured" {
-            true => (stated, three(f64::NAN)),
-            false => (three(f64::NAN), stated),
-        };
-        let ours = [k, k + 1].map(|j| format!("{} (at {} s)", three(fast[j]), three(times[j])));
-        let [angle, quantity] = [cases[k].replace("deg", "\u{b0}"), format!("{}, m/s", quantities[k])];
-        text += &format!("| {angle} | {quantity} | {measured} | {authors} | {} | {} |\n", ours[0], ours[1]);
-    }
-    Ok(text
-        + "\nOurs is the speed that 95 % of the material in the window stays below, in one run; times in brackets count from the opening \
-           of the gate. The paper's clock starts \"when the flow just approaches the barrier\". Not judged: no scatter of ours is on record.\n\n")
-}
-
-/// Forces that are drawn as lines and bands.
-fn closed_forms(references: &[(&str, Table)]) -> Result<String, OutputError> {
-    let mut text = String::from("## Lines and bands of the figure\n\n| | force | N |\n|---|---|---|\n");
-    for (case, table) in references {
-        let (values, widths) = (table.column("value_n")?, table.column("half_width_n")?);
-        for (label, (value, width)) in table.cells("label")?.iter().zip(values.iter().zip(widths)) {
-            let band = if *width > 0.0 { format!(" \u{b1} {}", three(*width)) } else { String::new() };
-            text += &format!("| {} | {label} | {}{band} |\n", case.replace("deg", "\u{b0}"), three(*value));
-        }
-    }
-    Ok(text + "\n")
-}
-
-/// What the paper says of the figure and nothing of ours stands beside.
-fn not_compared(figure: &Figure) -> String {
-    let shown = |id: &str| FIGURES.iter().any(|f| f.lines.iter().any(|l| l.stated.contains(&id)));
-    let of_it = |place: &str| {
-        let last = place.rsplit("Fig. ").next().unwrap_or_default();
-        place.contains("Fig. ") && last.trim_end_matches(char::is_alphabetic) == figure.number
-    };
-    let rest = (data::rows(compare::PUBLISHED).into_iter())
-        .filter(|d| of_it(&d.place) && !shown(&d.id) && !d.quantity.starts_with("largest velocity at "));
-    let lines: Vec<String> = rest
-        .map(|d| {
-            let unit = if d.unit == "1" { String::new() } else { format!(" {}", d.unit) };
-            let note = if d.note.is_empty() { String::new() } else { format!("; {}", d.note) };
-            let value = published(d.value, d.uncertainty, "");
-            format!("- {}, {}: {value}{unit} ({}){note}.\n", d.case.replace("deg", "\u{b0}"), d.quantity, d.kind)
-        })
-        .collect();
-    if lines.is_empty() {
-        return String::new();
-    }
-    format!("## Stated, and nothing of ours beside it\n\n{}", lines.concat())
 }
