@@ -111,6 +111,18 @@ pub const VALIDATIONS: &[Validation] = &[
     column::SLOPE,
 ];
 
+/// Gives the runs of a study that is on record.
+pub type RecordedRows = fn() -> Result<Vec<record::RecordedRun>, Failure>;
+
+/// All studies that are on record, by the names of their files below `validation`.
+pub const STUDIES: &[(&str, RecordedRows)] = &[
+    ("flume/runs/baseline.csv", || flume::baseline::RECORD.rows()),
+    ("flume/runs/sensitivity.csv", || flume::sensitivity::RECORD.rows()),
+    ("flume/runs/calibration.csv", || flume::calibration::SAMPLE.rows()),
+    ("flume/runs/refined.csv", || flume::calibration::REFINED.rows()),
+    ("column/runs/columns.csv", column::rows),
+];
+
 /// Writes tables and figures of an outcome into `folder`, which is created; returns their names.
 ///
 /// # Errors

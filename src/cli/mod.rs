@@ -5,6 +5,7 @@ mod console;
 mod progress;
 mod run;
 mod study;
+mod suite;
 mod validate;
 mod verify;
 

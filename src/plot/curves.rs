@@ -18,6 +18,10 @@ const COLOURS: [RGBColor; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];
 /// More points than this are drawn without markers.
 const MARKED: usize = 40;
 const LEGEND_ROW_PX: f64 = 19.0;
+/// Room to the right of a panel.
+const RIGHT_PX: f64 = 22.0;
+/// Least distance between the names of ticks.
+const BETWEEN_PX: f64 = 6.0;
 
 /// One column against another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,7 +116,7 @@ pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> 
             let corner = (units(wide * column as f64), units(tall * row as f64));
             let area = canvas.clone().shrink(corner, (units(wide), units(tall)));
             let last = k + columns >= panels.len();
-            draw_panel(canvas, &area, what, panel, curves, &legend, [column == 0, last])?;
+            draw_panel(canvas, &area, wide, what, panel, curves, &legend, [column == 0, last])?;
         }
         for ((label, style), (x, row)) in legend.iter().zip(&places) {
             let at = (units(*x), units(height + LEGEND_ROW_PX * (*row as f64 + 0.5)));
@@ -123,20 +127,21 @@ pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> 
     })
 }
 
-/// One panel; `titled` says whether its vertical and its horizontal axis have a title.
+/// One panel, `wide` pixels across; `titled` says whether its vertical and its horizontal axis have a title.
 fn draw_panel(
     canvas: &Canvas<'_>,
     area: &Canvas<'_>,
+    wide: f64,
     what: &Curves,
     panel: &Panel,
     curves: &[Drawn],
     legend: &[(String, ShapeStyle)],
     titled: [bool; 2],
 ) -> Result<(), PlotError> {
-    let [x, y] = axes(what, curves);
     let top = if panel.title.is_empty() { 16.0 } else { 32.0 };
     let left = if what.panels.len() > 1 { 74.0 } else { 92.0 };
-    let margins = Margins { left, right: 22.0, top, bottom: 46.0 };
+    let [x, y] = axes(what, curves, wide - left - RIGHT_PX);
+    let margins = Margins { left, right: RIGHT_PX, top, bottom: 46.0 };
     let title = |k: usize, text| if titled[k] { text } else { "" };
     let frame = Frame::draw(area, &margins, (&x, title(1, what.x_title)), (&y, title(0, what.y_title)))?;
     let (left, right, upper, lower) = frame.bounds();
@@ -156,8 +161,8 @@ fn draw_panel(
     Ok(())
 }
 
-/// Axes around the points; the horizontal ticks are the values that occur, if they are few.
-fn axes(what: &Curves, curves: &[Drawn]) -> [Axis; 2] {
+/// Axes around the points, the horizontal one `wide` pixels long; its ticks are the values that occur, if they are few.
+fn axes(what: &Curves, curves: &[Drawn], wide: f64) -> [Axis; 2] {
     let all = || curves.iter().flat_map(|d| &d.points).filter(|p| p.0.is_finite());
     let range = |value: fn(&(f64, f64)) -> f64| {
         all().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
@@ -168,7 +173,17 @@ fn axes(what: &Curves, curves: &[Drawn]) -> [Axis; 2] {
     places.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     let named = |places: Vec<f64>, value: fn(f64) -> f64| {
         let names = places.iter().map(|p| crate::check::significant(value(*p), 3)).collect();
-        Axis::named(places, names)
+        let mut axis = Axis::named(places, names);
+        // From left to right, those that would touch the one before stay without a name.
+        let mut taken = f64::NEG_INFINITY;
+        axis.unname(|place, name| {
+            let half = 0.5 * text_width_px(name, TEXT_PX);
+            let middle = place * wide;
+            let free = middle - half > taken + BETWEEN_PX;
+            taken = if free { middle + half } else { taken };
+            !free
+        });
+        axis
     };
     if !what.logarithmic {
         // Zero belongs on the axis unless that would flatten the curves.
