@@ -120,6 +120,12 @@ pub const STUDIES: &[(&str, RecordedRows)] = &[
     ("flume/runs/sensitivity.csv", || flume::sensitivity::RECORD.rows()),
     ("flume/runs/calibration.csv", || flume::calibration::SAMPLE.rows()),
     ("flume/runs/refined.csv", || flume::calibration::REFINED.rows()),
+    ("barrier/runs/rigidity.csv", || barrier::records::RIGIDITY.record.rows()),
+    ("barrier/runs/scatter.csv", || barrier::records::SCATTER.record.rows()),
+    ("barrier/runs/fine.csv", || barrier::records::FINE.record.rows()),
+    ("barrier/runs/rigid.csv", || barrier::records::RIGID.record.rows()),
+    ("barrier/runs/integration.csv", || barrier::records::INTEGRATION.record.rows()),
+    ("barrier/runs/density.csv", || barrier::records::DENSITY.record.rows()),
     ("column/runs/columns.csv", column::rows),
 ];
 

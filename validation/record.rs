@@ -1,7 +1,7 @@
 //! Recorded runs of a study: made anew when asked for, read otherwise.
 
 use super::{Context, Failure};
-use crate::case::Case;
+use crate::case::{Case, Integration};
 use crate::output::{OutputError, Table};
 use crate::study::{PlannedRun, Runs, Study, StudyError, one, plan, run};
 use crate::verification::report::quoted;
@@ -122,7 +122,9 @@ pub struct RecordedRun {
 
 /// Particle-steps of a case, if it went on until its end time; a quarter of that is typical.
 fn cost(case: &Case) -> f64 {
-    let stiffest = case.materials.values().map(|m| m.young_pa / m.density_kg_per_m3).fold(0.0, f64::max);
+    let explicit = case.bodies.iter().filter(|b| b.integration == Integration::Explicit);
+    let material = explicit.filter_map(|b| case.materials.get(&b.material));
+    let stiffest = material.map(|m| m.young_pa / m.density_kg_per_m3).fold(0.0, f64::max);
     let step = case.numerics.cfl * case.grid.spacing_m / stiffest.sqrt();
     case.particle_count_estimate() * case.stages.run.end_time_s / step
 }

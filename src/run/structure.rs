@@ -23,9 +23,9 @@ pub struct StructureResults {
     /// Largest of the samples of the contact force that are nearest to whole multiples of 20 ms, N: what an archive of that interval
     /// shows of the peak.
     pub peak_force_50hz_n: f64,
-    /// Share of the energy at release that was kinetic when the flow arrived.
+    /// Share of the energy at release that was kinetic when the energies were first recorded after the flow arrived, up to 10 ms later.
     pub kinetic_at_arrival: f64,
-    /// Share of the energy at release that was gone by then.
+    /// Share of the energy at release that was gone by that record.
     pub dissipated_at_arrival: f64,
     /// Largest deflection of the tip away from the material at any time, m.
     pub tip_deflection_max_m: f64,

@@ -1,7 +1,7 @@
 //! Four of the barriers looked into: pressure through time, the wave that runs up the flow, how the barrier moves and bends, stress and
 //! shear in the sand, what rests on the wall at the end, and where the energy is (Figs. 5 and 7 to 14 of the paper).
 //!
-//! The runs take some minutes; what the figures need of them is on record in `runs/close_up`.
+//! The runs take some minutes; what the figures need of them is on record in `tables`.
 
 use super::PUBLISHED;
 use super::records::RIGIDITY;
@@ -46,18 +46,18 @@ const WAVE_REACH: f64 = 0.3;
 
 /// Tables of the record: file, text.
 const RECORD: [(&str, &str); 12] = [
-    ("pressure.csv", include_str!("../runs/close_up/pressure.csv")),
-    ("wave.csv", include_str!("../runs/close_up/wave.csv")),
-    ("at_peak.csv", include_str!("../runs/close_up/at_peak.csv")),
-    ("at_rest.csv", include_str!("../runs/close_up/at_rest.csv")),
-    ("energy.csv", include_str!("../runs/close_up/energy.csv")),
-    ("geometry.csv", include_str!("../runs/close_up/geometry.csv")),
-    ("field_plastic.csv", include_str!("../runs/close_up/field_plastic.csv")),
-    ("field_concrete.csv", include_str!("../runs/close_up/field_concrete.csv")),
-    ("outline_plastic.csv", include_str!("../runs/close_up/outline_plastic.csv")),
-    ("outline_concrete.csv", include_str!("../runs/close_up/outline_concrete.csv")),
-    ("mechanisms_plastic.csv", include_str!("../runs/close_up/mechanisms_plastic.csv")),
-    ("mechanisms_concrete.csv", include_str!("../runs/close_up/mechanisms_concrete.csv")),
+    ("pressure.csv", include_str!("tables/pressure.csv")),
+    ("wave.csv", include_str!("tables/wave.csv")),
+    ("at_peak.csv", include_str!("tables/at_peak.csv")),
+    ("at_rest.csv", include_str!("tables/at_rest.csv")),
+    ("energy.csv", include_str!("tables/energy.csv")),
+    ("geometry.csv", include_str!("tables/geometry.csv")),
+    ("field_plastic.csv", include_str!("tables/field_plastic.csv")),
+    ("field_concrete.csv", include_str!("tables/field_concrete.csv")),
+    ("outline_plastic.csv", include_str!("tables/outline_plastic.csv")),
+    ("outline_concrete.csv", include_str!("tables/outline_concrete.csv")),
+    ("mechanisms_plastic.csv", include_str!("tables/mechanisms_plastic.csv")),
+    ("mechanisms_concrete.csv", include_str!("tables/mechanisms_concrete.csv")),
 ];
 /// Folder of these tables.
 const FOLDER: &str = "barrier_close_up";
@@ -125,6 +125,13 @@ impl Numbers {
     /// Largest share of the energy at release that the barrier ever holds.
     pub fn held_by_barrier(&self, barrier: &str) -> f64 {
         self.energy.iter().filter(|e| e.0 == barrier).map(|e| e.1[2]).fold(0.0, f64::max)
+    }
+
+    /// Share of what is dissipated that is dissipated after the arrival.
+    pub fn pile_up(&self, barrier: &str) -> f64 {
+        let own: Vec<&[f64; 3]> = self.energy.iter().filter(|e| e.0 == barrier).map(|e| &e.1).collect();
+        let before = own.iter().rfind(|e| e[0] <= WAVE[0]).map_or(f64::NAN, |e| e[1]);
+        own.last().map_or(f64::NAN, |end| 1.0 - before / end[1])
     }
 
     /// Time from the arrival until nine tenths of what is dissipated after it are, s.
