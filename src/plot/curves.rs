@@ -8,8 +8,8 @@ use plotters::style::text_anchor::HPos;
 use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
 use super::style::{
-    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, TEXT_PX, VERMILION, WIDTH_PX, drawing, lighten,
-    line, render, stroke, text_width_px, units, write_at,
+    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, TEXT_PX, UNIT, VERMILION, WIDTH_PX, drawing,
+    lighten, line, render, stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
@@ -116,7 +116,7 @@ pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> 
             let corner = (units(wide * column as f64), units(tall * row as f64));
             let area = canvas.clone().shrink(corner, (units(wide), units(tall)));
             let last = k + columns >= panels.len();
-            draw_panel(canvas, &area, wide, what, panel, curves, &legend, [column == 0, last])?;
+            draw_panel(canvas, &area, what, panel, curves, &legend, [column == 0, last])?;
         }
         for ((label, style), (x, row)) in legend.iter().zip(&places) {
             let at = (units(*x), units(height + LEGEND_ROW_PX * (*row as f64 + 0.5)));
@@ -127,11 +127,10 @@ pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> 
     })
 }
 
-/// One panel, `wide` pixels across; `titled` says whether its vertical and its horizontal axis have a title.
+/// One panel; `titled` says whether its vertical and its horizontal axis have a title.
 fn draw_panel(
     canvas: &Canvas<'_>,
     area: &Canvas<'_>,
-    wide: f64,
     what: &Curves,
     panel: &Panel,
     curves: &[Drawn],
@@ -140,6 +139,7 @@ fn draw_panel(
 ) -> Result<(), PlotError> {
     let top = if panel.title.is_empty() { 16.0 } else { 32.0 };
     let left = if what.panels.len() > 1 { 74.0 } else { 92.0 };
+    let wide = f64::from(area.dim_in_pixel().0) / f64::from(UNIT);
     let [x, y] = axes(what, curves, wide - left - RIGHT_PX);
     let margins = Margins { left, right: RIGHT_PX, top, bottom: 46.0 };
     let title = |k: usize, text| if titled[k] { text } else { "" };

@@ -1,4 +1,4 @@
-//! The verdict on every published number; [`super::judge`] has the rules.
+//! The verdict on every published number; `judge.rs` has the rules.
 
 use super::compare;
 use super::judge::{Basis, Reading};
