@@ -16,7 +16,7 @@ use std::path::Path;
 pub const VALIDATION: Validation = Validation {
     name: "barrier_grids",
     title: "The barrier on grids of 20, 10 and 5 mm, in explicit and in implicit steps: order, grid convergence index, scatter",
-    study: "153 runs, about 30 minutes",
+    study: "97 runs, about 15 minutes",
     run,
     draw,
     covers: &[],
