@@ -117,6 +117,7 @@ pub type RecordedRows = fn() -> Result<Vec<record::RecordedRun>, Failure>;
 /// All studies that are on record, by the names of their files below `validation`.
 pub const STUDIES: &[(&str, RecordedRows)] = &[
     ("flume/runs/baseline.csv", || flume::baseline::RECORD.rows()),
+    ("flume/runs/finest.csv", || flume::baseline::FINEST.rows()),
     ("flume/runs/sensitivity.csv", || flume::sensitivity::RECORD.rows()),
     ("flume/runs/calibration.csv", || flume::calibration::SAMPLE.rows()),
     ("flume/runs/refined.csv", || flume::calibration::REFINED.rows()),

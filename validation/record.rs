@@ -58,9 +58,10 @@ impl Record {
         let columns: Vec<String> = study.columns().into_iter().map(String::from).collect();
         let mut lines = self.runs.lines();
         let header = lines.next().unwrap_or_default();
-        let rows = plan.into_iter().zip(lines).map(|(planned, line)| {
+        let ends = Table::parse(self.runs, self.name)?.column("end_s")?.to_vec();
+        let rows = plan.into_iter().zip(lines).zip(ends).map(|((planned, line), end)| {
             let columns = columns.clone();
-            let (what, recorded, cost) = (planned.what.clone(), line.to_string(), cost(&planned.case));
+            let (what, recorded, cost) = (planned.what.clone(), line.to_string(), cost(&planned.case, end));
             let anew = move || {
                 let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
                 let mut runs = Runs::in_memory(&columns);
@@ -120,13 +121,14 @@ pub struct RecordedRun {
     pub anew: Box<dyn Fn() -> Result<String, Failure> + Send + Sync>,
 }
 
-/// Particle-steps of a case, if it went on until its end time; a quarter of that is typical.
-fn cost(case: &Case) -> f64 {
+/// About how many particle-steps a case takes that ended at `end` (s), or at its end time; it settles and tilts for a second before.
+fn cost(case: &Case, end: f64) -> f64 {
+    let time = 1.0 + if end.is_finite() { end } else { case.stages.run.end_time_s };
     let explicit = case.bodies.iter().filter(|b| b.integration == Integration::Explicit);
     let material = explicit.filter_map(|b| case.materials.get(&b.material));
     let stiffest = material.map(|m| m.young_pa / m.density_kg_per_m3).fold(0.0, f64::max);
     let step = case.numerics.cfl * case.grid.spacing_m / stiffest.sqrt();
-    case.particle_count_estimate() * case.stages.run.end_time_s / step
+    case.particle_count_estimate() * time / step
 }
 
 /// A spread-out choice of runs that costs about `budget`: down the list the share budget / (number of runs * cost) is added up, at

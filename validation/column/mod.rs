@@ -185,11 +185,12 @@ fn record(context: &mut Context) -> Result<String, Failure> {
 /// The recorded runs one by one.
 ///
 /// # Errors
-/// None.
+/// The record is not as it should be.
 pub fn rows() -> Result<Vec<RecordedRun>, Failure> {
-    let rows = plan::all().into_iter().zip(RECORD.lines().skip(1)).map(|(planned, line)| {
+    let recorded = verdict::recorded(RECORD).map_err(Failure::Record)?;
+    let rows = plan::all().into_iter().zip(RECORD.lines().skip(1).zip(recorded)).map(|(planned, (line, numbers))| {
         let (what, recorded) = (line.splitn(4, ',').take(3).collect::<Vec<_>>().join(", "), line.to_string());
-        let cost = planned.cost();
+        let cost = planned.cost(numbers.get("rest_1"));
         let anew = move || {
             let deposit = planned.run(&crate::verification::Fault::NONE)?;
             Ok(plan::line(&planned, plan::numbers(&planned.column, &deposit)).trim_end().to_string())

@@ -115,17 +115,17 @@ impl Planned {
         Self { case, cells, change: change.0, column }
     }
 
-    /// How long it is given to come to rest, s after the gate has gone.
-    fn patience(&self) -> f64 {
-        40.0 * (self.column.height / super::release::GRAVITY).sqrt()
+    /// Time in which its height falls, s.
+    fn time(&self) -> f64 {
+        (self.column.height / super::release::GRAVITY).sqrt()
     }
 
-    /// Particle-steps, if it took all of its time.
-    pub fn cost(&self) -> f64 {
+    /// About how many particle-steps it takes to come to rest after so many of its times.
+    pub fn cost(&self, rest: f64) -> f64 {
         let (c, h) = (&self.column, self.column.spacing());
         let points = c.length * c.height / (h * h) * (c.per_cell * c.per_cell) as f64;
         let step = c.cfl * h / (c.material.elastic.young / c.material.density).sqrt();
-        points * self.patience() / step
+        points * rest * self.time() / step
     }
 
     /// Runs it.
@@ -133,7 +133,7 @@ impl Planned {
     /// # Errors
     /// Where the solver gives up.
     pub fn run(&self, fault: &Fault) -> Result<Deposit, crate::verification::RungFailure> {
-        self.column.collapse(self.patience(), fault)
+        self.column.collapse(40.0 * self.time(), fault)
     }
 }
 

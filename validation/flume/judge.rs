@@ -92,6 +92,7 @@ pub struct Judged {
 /// The recorded runs that verdicts rest on.
 pub struct Basis {
     repetitions: Vec<Run>,
+    finest: Vec<Run>,
     changed: Vec<Run>,
     refined: Vec<Run>,
     best: String,
@@ -109,12 +110,18 @@ impl Basis {
         let repetitions = read(&baseline::RECORD, &["cell_m"])?;
         let refined = read(&calibration::REFINED, &[])?;
         let best = calibration::best(&refined, &repetitions);
-        Ok(Self { changed: read(&sensitivity::RECORD, &[])?, repetitions, refined, best })
+        let finest = read(&baseline::FINEST, &["cell_m"])?;
+        Ok(Self { changed: read(&sensitivity::RECORD, &[])?, repetitions, finest, refined, best })
     }
 
     /// What three grids say of a quantity.
     pub fn numerical(&self, case: &str, of: Counterpart) -> Numerical {
         Numerical::of(&self.repetitions, case, &|r| r.value(of))
+    }
+
+    /// The quantity in the one run on the finest grid.
+    pub fn finest(&self, case: &str, of: Counterpart) -> f64 {
+        self.finest.iter().find(|r| r.case == case).map_or(f64::NAN, |r| r.value(of))
     }
 
     /// The quantity with the frozen set.

@@ -21,7 +21,7 @@ pub fn tables(flumes: &[Flume]) -> Result<Vec<(String, String)>, Failure> {
     let basis = Basis::read()?;
     let mut text = String::from(
         "figure,case,quantity,unit,measured,measured_half_width,authors,authors_half_width,authors_kind,\
-         ours_20mm,ours_10mm,ours_5mm,deviation_10mm,order,index_10mm_percent,u_num,\
+         ours_20mm,ours_10mm,ours_5mm,one_run_2.5mm,deviation_10mm,order,index_10mm_percent,u_num,\
          least,least_with,greatest,greatest_with,calibrated,verdict_measured,two_u_val_measured,verdict_authors,two_u_val_authors,verdict_calibrated\n",
     );
     for figure in &FIGURES {
@@ -60,6 +60,7 @@ fn row(basis: &Basis, case: &str, line: &Line) -> Vec<String> {
     let mut cells: Vec<String> = two(measured).into_iter().chain(two(authors)).collect();
     cells.push(authors.map_or_else(String::new, |d| d.kind.clone()));
     cells.extend(ours.map(|s| cell(s.mean)));
+    cells.push(cell(basis.finest(case, line.of)));
     cells.extend([ours[CASE_CELLS].deviation, numerical.order.order, index, numerical.uncertainty()].map(cell));
     cells.extend(ends.into_iter().flat_map(|(value, with)| [cell(value), quoted(&with)]));
     cells.push(cell(basis.calibrated(case, line.of)));
