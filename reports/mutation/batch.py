@@ -15,14 +15,18 @@ import shutil
 import subprocess
 import sys
 from collections import defaultdict
+from multiprocessing.pool import ThreadPool
 
 from measure import COLUMNS, OUT, ROOT, load, mutants, source, store
 
 TREE = OUT / "tree"
-# Mutants to a binary; the kernels are compiled for many shapes, laws and instruction sets.
-SIZE = {"src/transfer/kernels.rs": 30}
+# Mutants to a binary; the kernels are compiled for many shapes, laws and instruction sets, so one of them counts for many.
+SIZE = 800
+WEIGHT = {"src/transfer/kernels.rs": 25}
 # A test that takes so many times the processor time of all tests hangs.
-HANGS = 8
+HANGS = 4
+# Mutants that are tried at a time.
+THREADS = 2
 SWITCH = """
 #[allow(missing_docs)]
 pub mod mutant_switch {
@@ -33,13 +37,26 @@ pub mod mutant_switch {
     }
 }
 """
-OTHERS = ["case::", "check::", "output::", "plot::", "run::", "theory::", "verification::"]
+OTHERS = ["case::", "check::", "output::", "plot::", "run::", "study::", "theory::", "validation::", "verification::"]
+# Tests that take a second or more, in the end.
+SLOW = [
+    "contact::tests::surfaces::",
+    "gauge::reaction::tests::a_clamp_carries",
+    "gauge::structure::tests::at_rest",
+    "gauge::structure::tests::contact_clamp",
+    "simulation::implicit::tests::a_free_swing",
+    "simulation::implicit::tests::a_stiff_wall",
+]
 
 
 def refresh():
     """Brings the copy of the project up to date."""
-    names = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
-    for name in filter(None, names):
+    listing = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True)
+    names = listing.stdout.splitlines()
+    for old in (TREE / "src").rglob("*.rs"):
+        if str(old.relative_to(TREE)) not in names:
+            old.unlink()
+    for name in names:
         text = (ROOT / name).read_bytes() + (SWITCH.encode() if name == "src/lib.rs" else b"")
         if not (TREE / name).exists() or (TREE / name).read_bytes() != text:
             (TREE / name).parent.mkdir(parents=True, exist_ok=True)
@@ -48,7 +65,7 @@ def refresh():
 
 
 class File:
-    """A source file and the mutants to try in it."""
+    """A source file and the mutants to try in it, as (number, mutant)."""
 
     def __init__(self, name, listed):
         self.name, self.text = name, (ROOT / name).read_text()
@@ -56,7 +73,7 @@ class File:
         for line in self.text.split("\n"):
             self.starts.append(self.starts[-1] + len(line) + 1)
         self.bodies = defaultdict(list)
-        for number, mutant in enumerate(listed, 1):
+        for number, mutant in listed:
             if body := mutant["function"] and self.body(mutant["function"]):
                 span = [self.at(mutant["span"][end]) for end in ("start", "end")]
                 self.bodies[body].append((number, mutant, *span))
@@ -103,25 +120,29 @@ class File:
         put(self.text[last:])
         return "".join(out), lines
 
-    def build(self, wanted):
-        """Compiles the tests with these mutants; returns the binary, the mutants in it, and those that do not compile."""
-        wanted, unviable = set(wanted), set()
-        command = ["cargo", "test", "--no-run", "--lib", "--profile", "mutants", "--message-format=json"]
-        while True:
-            text, lines = self.generate(wanted)
-            (TREE / self.name).write_text(text)
-            env = os.environ | {"RUSTFLAGS": "--cap-lints=warn"}
-            result = subprocess.run(command, cwd=TREE, env=env, capture_output=True, text=True)
-            messages = [json.loads(m) for m in result.stdout.splitlines()]
-            if result.returncode == 0:
-                return next(m["executable"] for m in messages if m.get("executable")), wanted, unviable
-            errors = [m["message"] for m in messages if m.get("message", {}).get("level") == "error"]
-            places = [s["line_start"] for e in errors for s in e["spans"] if s["is_primary"] and s["file_name"] == self.name]
-            bad = {n for n, taken in lines.items() if any(p in taken for p in places)}
-            if not bad:
-                sys.exit("\n".join([f"cannot compile {self.name}", result.stderr, *(e["rendered"] for e in errors)]))
-            unviable |= bad
-            wanted -= bad
+
+def build(files):
+    """Compiles the tests with all mutants of these files; returns the binary and the mutants that do not compile."""
+    wanted, unviable = {n for f in files for n in f.names}, set()
+    command = ["cargo", "test", "--no-run", "--lib", "--profile", "mutants", "--message-format=json"]
+    while True:
+        taken = {}
+        for f in files:
+            text, lines = f.generate(wanted)
+            (TREE / f.name).write_text(text)
+            taken |= {(f.name, line): n for n, own in lines.items() for line in own}
+        env = os.environ | {"RUSTFLAGS": "--cap-lints=warn"}
+        result = subprocess.run(command, cwd=TREE, env=env, capture_output=True, text=True)
+        messages = [json.loads(m) for m in result.stdout.splitlines()]
+        if result.returncode == 0:
+            return next(m["executable"] for m in messages if m.get("executable")), unviable
+        errors = [m["message"] for m in messages if m.get("message", {}).get("level") == "error"]
+        places = [(s["file_name"], s["line_start"]) for e in errors for s in e["spans"] if s["is_primary"]]
+        bad = {taken[place] for place in places if place in taken}
+        if not bad:
+            sys.exit("\n".join(["cannot compile", result.stderr, *(e["rendered"] for e in errors)]))
+        unviable |= bad
+        wanted -= bad
 
 
 def attempt(binary, number, arguments, limit):
@@ -143,47 +164,78 @@ def attempt(binary, number, arguments, limit):
     return "timeout" if code in (137, 152, -9, -24) else "caught", test
 
 
-def trial(binary, number, file, limit):
-    """The tests of the mutant's own module first."""
+def rounds(file):
+    """Arguments of the tests to run one after the other: quick ones, of the mutant's own module first, then slow ones."""
     module = file.removeprefix("src/").removesuffix(".rs").split("/")[0]
-    own = [f"{module}::", "solver_tests::"]
-    outcome = attempt(binary, number, own, limit)
-    rest = [a for other in OTHERS for a in ("--skip", other)]
-    return attempt(binary, number, rest, limit) if outcome[0] == "missed" else outcome
+    skip = lambda names: [a for name in names for a in ("--skip", name)]
+    return [[f"{module}::", "solver_tests::", *skip(SLOW)], skip(OTHERS + SLOW), SLOW]
 
 
-def try_file(name, listed):
-    file, found = File(name, listed), {}
-    numbers = sorted(file.names)
-    size = SIZE.get(name, 400)
-    for k in range(0, len(numbers), size):
-        binary, viable, unviable = file.build(numbers[k : k + size])
+def attempt_original(binary, name, seen):
+    """Limits of the processor time of each round, s; `seen` keeps those of rounds that files have in common."""
+    limits = []
+    for arguments in rounds(name):
+        if known := seen.get(tuple(arguments)):
+            limits.append(known)
+            continue
         before = os.times()
-        if (original := trial(binary, 0, name, 600))[0] != "missed":
-            sys.exit(f"{name}: {original[1]} fails without a mutant")
-        after = os.times()
-        limit = max(10, int(HANGS * (after.children_user - before.children_user)))
-        found |= {n: ("unviable", "") for n in unviable} | {n: trial(binary, n, name, limit) for n in sorted(viable)}
-    (TREE / name).write_text(file.text)
-    return {file.names[n]: outcome for n, outcome in found.items()}
+        if (outcome := attempt(binary, 0, arguments, 600))[0] != "missed":
+            sys.exit(f"{outcome[1]} fails without a mutant")
+        limits.append(max(5, int(HANGS * (os.times().children_user - before.children_user))))
+        seen[tuple(arguments)] = limits[-1]
+    return limits
+
+
+def trial(binary, number, name, limits):
+    outcome = "missed", ""
+    for arguments, limit in zip(rounds(name), limits):
+        if outcome[0] == "missed":
+            outcome = attempt(binary, number, arguments, limit)
+    return outcome
+
+
+def try_batch(batch, keys):
+    """Tries mutants, as (number, mutant)."""
+    files = [File(f, [m for m in batch if m[1]["file"] == f]) for f in sorted({m["file"] for _, m in batch})]
+    (binary, unviable), seen = build(files), {}
+    limits = {f.name: attempt_original(binary, f.name, seen) for f in files}
+    for f in files:
+        (TREE / f.name).write_text(f.text)
+        fingerprint = source(f.name)
+
+        def one(number):
+            return number, ("unviable", "") if number in unviable else trial(binary, number, f.name, limits[f.name])
+
+        found = []
+        with ThreadPool(THREADS) as pool:
+            for done, (number, outcome) in enumerate(pool.imap_unordered(one, f.names), 1):
+                found.append((number, outcome))
+                if done % 20 == 0 or done == len(f.names):
+                    known = load()
+                    for n, (how, by) in found:
+                        key = keys[f.names[n]]
+                        known[key] = dict(zip(COLUMNS, (*key, fingerprint, how, "unit", by)))
+                    store(known)
+        missed = sum(outcome == "missed" for _, (outcome, _) in found)
+        listed = sum(m["file"] == f.name for _, m in batch)
+        print(f"{f.name}: {len(found)} tried, {missed} missed, {listed - len(found)} left to measure.py", flush=True)
 
 
 def main(files):
     refresh()
     listing = subprocess.run(["cargo", "mutants", "--list", "--json"], cwd=ROOT, check=True, capture_output=True)
-    keys, known, todo = mutants(), load(), defaultdict(list)
-    for mutant in json.loads(listing.stdout):
+    keys, known = mutants(), load()
+    batch, size = [], 0
+    for number, mutant in enumerate(json.loads(listing.stdout), 1):
         open_ = known.get(keys[mutant["name"]], {"outcome": "missed"})["outcome"] == "missed"
         if open_ and (not files or mutant["file"] in files):
-            todo[mutant["file"]].append(mutant)
-    for name, listed in todo.items():
-        found, known = try_file(name, listed), load()
-        for mutant, (outcome, by) in found.items():
-            key = keys[mutant]
-            known[key] = dict(zip(COLUMNS, (*key, source(name), outcome, "unit", by)))
-        store(known)
-        missed = sum(outcome == "missed" for outcome, _ in found.values())
-        print(f"{name}: {len(found)} tried, {missed} missed, {len(listed) - len(found)} left to measure.py", flush=True)
+            batch.append((number, mutant))
+            size += WEIGHT.get(mutant["file"], 1)
+            if size >= SIZE:
+                try_batch(batch, keys)
+                batch, size = [], 0
+    if batch:
+        try_batch(batch, keys)
 
 
 if __name__ == "__main__":

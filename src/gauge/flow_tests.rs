@@ -50,6 +50,29 @@ fn no_material_has_no_front() {
 }
 
 #[test]
+fn barriers_do_not_flow() {
+    // The first body is the barrier, by its index or because it has no weight; it lies ahead and everywhere else.
+    let grid = |k: i32| point(0.1 + 0.2 * f64::from(k), 0.1, [30.0, 40.0], 1.0);
+    let light: Vec<Particle> = (0..20).map(grid).collect();
+    let heavy = vec![point(1.0, 0.1, [3.0, 4.0], 1.0), point(1.05, 0.1, [3.0, 4.0], 1.0)];
+    for weightless in [true, false] {
+        let mut scene = scene_of(0.1, [light.clone(), heavy.clone()], vec![]);
+        scene.bodies[0].0.weightless = weightless;
+        let sim = Simulation::new(scene);
+        let barrier = (!weightless).then_some(0);
+        assert!(flowing(&sim, barrier).all(|(body, _)| body == 1) && flowing(&sim, barrier).count() == 2);
+        let front = front(&sim, barrier, &mut Vec::new());
+        assert!(front.x == 1.05 && front.velocity == 3.0, "{front:?}");
+        let station = stations(&sim, barrier, &[1.0])[0];
+        assert!(close(station.0, 2.0 * BODIES[1].1 / (0.2 * THICKNESS)) && close(station.1, 3.0), "{station:?}");
+        let window = Window { x: [0.0, 5.0], y: [0.0, 1.0] };
+        assert_eq!(window_speed(&sim, barrier, &window, &mut Vec::new()), (5.0, 5.0));
+        let cells = velocity_field(&sim, barrier);
+        assert!(cells.len() == 1 && close(cells[0].v[0], 3.0), "{cells:?}");
+    }
+}
+
+#[test]
 fn front_is_where_one_percent_of_the_mass_has_passed() {
     // 300 kg: grains of 1 and 1 kg are not the front, the next of 2 kg is. The rest lies far behind.
     let light = vec![point(2.0, 0.0, [9.0, 1.0], 1.0), point(1.9, 0.0, [8.0, 1.0], 1.0)];

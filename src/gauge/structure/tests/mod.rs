@@ -1,3 +1,5 @@
+mod still;
+
 use super::*;
 use crate::boundary::Friction;
 use crate::contact::rule::ContactRule;

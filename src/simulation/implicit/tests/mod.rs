@@ -1,3 +1,6 @@
+mod alone;
+mod reference;
+
 use crate::boundary::{Boundary, Friction};
 use crate::contact::rule::ContactRule;
 use crate::simulation::{PicShare, Simulation};
