@@ -147,9 +147,9 @@ fn every_record_is_among_the_studies() {
     }
 }
 
-/// Every study that is on record, run again: the same rows. Takes about an hour.
+/// Every study that is on record, run again: the same rows. Takes two hours or more.
 #[test]
-#[ignore = "an hour: cargo test --release --test validation -- --ignored"]
+#[ignore = "hours: cargo test --profile bench --test validation -- --ignored the_record_is_what"]
 fn the_record_is_what_the_studies_give() {
     let folder = folder("studies");
     for validation in VALIDATIONS.iter().filter(|v| !v.study.is_empty()) {
