@@ -93,8 +93,8 @@ fn every_fault_is_caught() {
     compare("faults.csv", faults_csv(&rows).into_bytes());
 }
 
-/// What the samples of all studies may cost together, in particle-steps: some ten minutes of one processor.
-const SAMPLES: f64 = 1.2e10;
+/// What the samples of all studies may cost together, in particle-steps: some eight minutes of one processor.
+const SAMPLES: f64 = 1e10;
 
 /// A fixed, spread-out sample of every study that is on record, run again: the same lines, byte for byte. A few minutes.
 #[test]
