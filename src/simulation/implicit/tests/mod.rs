@@ -1,4 +1,5 @@
 mod alone;
+mod law;
 mod reference;
 
 use crate::boundary::{Boundary, Friction};
@@ -11,7 +12,13 @@ use nalgebra::Vector2;
 const H: f64 = 0.02;
 
 /// A wall of 0.1 m by 0.3 m above its clamp, and a soft block that runs against it.
-fn wall_and_block(young: f64, implicit: bool, speed: f64, longest: f64) -> Simulation {
+fn wall_and_block(
+    young: f64,
+    implicit: bool,
+    speed: f64,
+    longest: f64,
+    change: impl Fn(&mut ContactRule),
+) -> Simulation {
     let (soft, stiff) = (Material::new(1e6, 0.3, 1500.0), Material::new(young, 0.2, 2400.0));
     let wall = Brick::new([0.4, -2.0 * H], [5, 17], H);
     let block = Brick::new([0.27, 0.0], [6, 6], H);
@@ -25,7 +32,9 @@ fn wall_and_block(young: f64, implicit: bool, speed: f64, longest: f64) -> Simul
     let mut moving = block.points();
     moving.iter_mut().for_each(|p| p.v = [speed, 0.0]);
     scene.bodies.push((block.body(soft.law(&Fault::NONE), soft.density), moving));
-    scene.contacts = vec![ContactRule::with_structure(0, 1, 0.4)];
+    let mut rule = ContactRule::with_structure(0, 1, 0.4);
+    change(&mut rule);
+    scene.contacts = vec![rule];
     scene.gravity = [0.5, -9.81];
     scene.numerics.pic = PicShare::Rate(2.0);
     scene.numerics.max_time_step = longest;
@@ -79,8 +88,8 @@ fn extrapolated(errors: [f64; 3]) -> f64 {
 
 #[test]
 fn a_stiff_wall_takes_the_same_impact_in_implicit_steps() {
-    let plain = impact(wall_and_block(2e7, false, 2.0, 1.0));
-    let implicit = STEPS.map(|dt| impact(wall_and_block(2e7, true, 2.0, dt)));
+    let plain = impact(wall_and_block(2e7, false, 2.0, 1.0, |_| ()));
+    let implicit = STEPS.map(|dt| impact(wall_and_block(2e7, true, 2.0, dt, |_| ())));
     let errors = |value: fn(&Impact) -> f64| implicit.each_ref().map(|i| value(i) / value(&plain) - 1.0);
     let all = [errors(|i| i.impulse), errors(|i| i.peak), errors(|i| i.deflection)];
     println!(
@@ -104,7 +113,7 @@ fn a_stiff_wall_takes_the_same_impact_in_implicit_steps() {
 #[test]
 fn stiffness_does_not_shorten_the_step() {
     let steps = [2e8, 2e11].map(|young| {
-        let mut sim = wall_and_block(young, true, 2.0, 1.0);
+        let mut sim = wall_and_block(young, true, 2.0, 1.0, |_| ());
         while sim.time() < 0.03 {
             sim.step().expect("a step");
         }
@@ -118,7 +127,7 @@ fn the_same_bits_for_any_number_of_threads() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let mut sim = wall_and_block(2e9, true, 2.0, 1.0);
+            let mut sim = wall_and_block(2e9, true, 2.0, 1.0, |_| ());
             while sim.time() < 0.02 {
                 sim.step().expect("a step");
             }
@@ -132,7 +141,7 @@ fn the_same_bits_for_any_number_of_threads() {
 fn a_free_swing_keeps_its_period_and_is_damped_as_first_order_says() {
     // Pushed by an initial velocity in the shape of its first mode, nearly; nothing touches it.
     let swing = |implicit: bool, longest: f64| {
-        let mut sim = wall_and_block(2e7, implicit, 0.0, longest);
+        let mut sim = wall_and_block(2e7, implicit, 0.0, longest, |_| ());
         let tip = |sim: &Simulation| {
             let top = sim.points_of(0).filter(|p| p.id >= 330);
             top.fold((0.0, 0.0), |(s, n), p| (s + p.x[0], n + 1.0))
