@@ -147,19 +147,19 @@ const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)
 const PEAKS: Curves = Curves {
     x: "cell_m",
     x_title: "cell size (m)",
-    y_title: "force (N), deflection (m)",
+    y_title: "",
     curves: &[
         Curve { column: "mean", label: "mean of the runs", exact: false },
         Curve { column: "mean_less_deviation", label: "one standard deviation", exact: true },
         Curve { column: "mean_plus_deviation", label: "one standard deviation", exact: true },
     ],
     panels: &[
-        panel("force over 20 ms, n = 2.5e-6", &[("stiffness_1", "2.5e-6"), ("quantity", "peak_20ms_n")]),
-        panel("force over 20 ms, n = 1e-4", &[("stiffness_1", "0.0001"), ("quantity", "peak_20ms_n")]),
-        panel("force over 20 ms, n = 1", &[("stiffness_1", "1"), ("quantity", "peak_20ms_n")]),
-        panel("deflection at the peak, n = 2.5e-6", &[("stiffness_1", "2.5e-6"), ("quantity", "peak_deflection_m")]),
-        panel("deflection at the peak, n = 1e-4", &[("stiffness_1", "0.0001"), ("quantity", "peak_deflection_m")]),
-        panel("impulse, n = 1e-4", &[("stiffness_1", "0.0001"), ("quantity", "impulse_half_second_n_s")]),
+        panel("force over 20 ms (N), n = 2.5e-6", &[("stiffness_1", "2.5e-6"), ("quantity", "peak_20ms_n")]),
+        panel("force over 20 ms (N), n = 1e-4", &[("stiffness_1", "0.0001"), ("quantity", "peak_20ms_n")]),
+        panel("force over 20 ms (N), n = 1", &[("stiffness_1", "1"), ("quantity", "peak_20ms_n")]),
+        panel("deflection at peak (m), n = 2.5e-6", &[("stiffness_1", "2.5e-6"), ("quantity", "peak_deflection_m")]),
+        panel("deflection at peak (m), n = 1e-4", &[("stiffness_1", "0.0001"), ("quantity", "peak_deflection_m")]),
+        panel("impulse (N s), n = 1e-4", &[("stiffness_1", "0.0001"), ("quantity", "impulse_half_second_n_s")]),
     ],
     ..Curves::LINEAR
 };
