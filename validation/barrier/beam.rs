@@ -32,7 +32,7 @@ pub const VALIDATION: Validation = Validation {
 const HEIGHT: f64 = 0.6;
 /// Deflection of the tip at rest that the acceleration is chosen for, m.
 const DEFLECTION: f64 = 5e-4;
-/// Cell sizes, m; that of the study is the last, and the one that faults are looked for on is the first.
+/// Cell sizes, m; that of the study, on which faults are looked for, is the last.
 const CELLS: [f64; 2] = [0.02, 0.01];
 
 /// What a cell size gives: mean deflection over one period over that at rest, period over the beam's; the swing as (time, deflection).

@@ -90,14 +90,21 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         let peaks = Scatter::of(own.map(|s| s.get("peak_20ms_n")));
         // Two standard deviations of the ratio of two single runs.
         let chance = 2.0 * 2f64.sqrt() * peaks.deviation / peaks.mean;
+        // Where waves return sooner than the force grows, the barrier is no half-space; what it does then is in the table.
+        let soft = ranges[0].stiffness == r.stiffness;
+        if !soft {
+            continue;
+        }
         outcome.checks.push(
             Check::new(
                 format!("n = {}: force at {} over that at {} kg/m3", r.stiffness, heavy.0, light.0),
                 heavy.1 / light.1,
-                Expected::AtLeast(1.0 - chance),
+                Expected::AtLeast(1.0 + chance),
                 "1",
             )
-            .because("a heavier barrier gives way less, and two single runs differ by chance: two standard deviations")
+            .because(
+                "were rigidity all, the ratio would be one; two single runs differ by chance, two standard deviations",
+            )
             .from(Kind::Analytic, "impedances of the first contact (Saint-Venant 1867)"),
         );
     }

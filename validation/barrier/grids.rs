@@ -137,6 +137,14 @@ fn integration(context: &mut Context) -> Result<(String, Vec<Check>), Failure> {
             }
         }
     }
+    for (n, cell) in &stiffnesses {
+        let lost = |integration: &str| {
+            let own = rows.iter().filter(|(m, r)| m == n && r.set["integration"] == integration);
+            own.filter(|(_, r)| r.get("energy_residual_1").abs() > 0.02).count() as f64
+        };
+        let counts = [lost("explicit"), lost("implicit")].map(number);
+        text += &format!("{cell},runs that miss more than 2 % of E0,{},,{},,,,9\n", counts[0], counts[1]);
+    }
     Ok((text, checks))
 }
 

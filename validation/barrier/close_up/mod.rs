@@ -40,6 +40,8 @@ const INSTANTS: [f64; 4] = [0.49, 0.6, 1.0, 2.4];
 const WAVE: [f64; 2] = [0.474, 0.53];
 /// Every so often, s.
 const WAVE_STEP: f64 = 0.002;
+/// Correlation below which distances and times do not make a wave.
+const STRAIGHT: f64 = 0.85;
 /// Height of the row of cells in which it is read, m above the bed: half the depth of the flow that arrives.
 const WAVE_ROW: f64 = 0.055;
 /// How far up the flow, m.
@@ -97,8 +99,8 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
 pub struct Numbers {
     /// Barrier and celerity of the wave, m/s.
     celerities: Vec<(String, f64)>,
-    /// Barrier, time (s), share dissipated, share held by the barrier.
-    energy: Vec<(String, [f64; 3])>,
+    /// Barrier, time (s), share dissipated, share held by the barrier, kinetic share.
+    energy: Vec<(String, [f64; 4])>,
 }
 
 /// Reads them.
@@ -111,7 +113,12 @@ pub fn numbers(context: &mut Context) -> Result<Numbers, Failure> {
     let speeds = celerities.column("celerity_m_per_s")?;
     let celerities = celerities.cells("barrier")?.into_iter().zip(speeds.iter().copied()).collect();
     let energy = parsed(&tables, "energy.csv")?;
-    let columns = [energy.column("time_s")?, energy.column("dissipated_1")?, energy.column("barrier_1")?];
+    let columns = [
+        energy.column("time_s")?,
+        energy.column("dissipated_1")?,
+        energy.column("barrier_1")?,
+        energy.column("kinetic_1")?,
+    ];
     let rows = energy.cells("barrier")?.into_iter().enumerate();
     let energy = rows.map(|(k, name)| (name, columns.map(|c| c[k]))).collect();
     Ok(Numbers { celerities, energy })
@@ -128,16 +135,27 @@ impl Numbers {
         self.energy.iter().filter(|e| e.0 == barrier).map(|e| e.1[2]).fold(0.0, f64::max)
     }
 
+    /// When the kinetic energy is largest, s.
+    pub fn fastest(&self, barrier: &str) -> f64 {
+        let own = self.energy.iter().filter(|e| e.0 == barrier);
+        own.fold((f64::NAN, 0.0), |a, e| if e.1[3] > a.1 { (e.1[0], e.1[3]) } else { a }).0
+    }
+
+    /// When it last exceeds a hundredth of the energy at release, s.
+    pub fn at_rest(&self, barrier: &str) -> f64 {
+        self.energy.iter().rfind(|e| e.0 == barrier && e.1[3] > 0.01).map_or(f64::NAN, |e| e.1[0])
+    }
+
     /// Share of what is dissipated that is dissipated after the arrival.
     pub fn pile_up(&self, barrier: &str) -> f64 {
-        let own: Vec<&[f64; 3]> = self.energy.iter().filter(|e| e.0 == barrier).map(|e| &e.1).collect();
+        let own: Vec<&[f64; 4]> = self.energy.iter().filter(|e| e.0 == barrier).map(|e| &e.1).collect();
         let before = own.iter().rfind(|e| e[0] <= WAVE[0]).map_or(f64::NAN, |e| e[1]);
         own.last().map_or(f64::NAN, |end| 1.0 - before / end[1])
     }
 
     /// Time from the arrival until nine tenths of what is dissipated after it are, s.
     pub fn levelling(&self, barrier: &str) -> f64 {
-        let own: Vec<&[f64; 3]> = self.energy.iter().filter(|e| e.0 == barrier).map(|e| &e.1).collect();
+        let own: Vec<&[f64; 4]> = self.energy.iter().filter(|e| e.0 == barrier).map(|e| &e.1).collect();
         let Some(end) = own.last() else { return f64::NAN };
         let before = own.iter().rfind(|e| e[0] <= WAVE[0]).map_or(0.0, |e| e[1]);
         let level = before + 0.9 * (end[1] - before);
@@ -193,7 +211,7 @@ fn shown(wave: &Table) -> Result<String, Failure> {
 }
 
 /// How fast the wave runs up the flow: at each distance, when the pressure first reaches half of the largest next to the face; a straight
-/// line through distance over time by least squares, and its correlation.
+/// line through distance over time by least squares, and its correlation; no celerity where that is poor.
 fn celerities(wave: &Table) -> Result<String, Failure> {
     let (time, distance, pressure) = (wave.column("time_s")?, wave.column("distance_m")?, wave.column("pressure_pa")?);
     let paper = |barrier: &str| match barrier {
@@ -204,7 +222,8 @@ fn celerities(wave: &Table) -> Result<String, Failure> {
     let mut text =
         String::from("barrier,largest_pressure_pa,celerity_m_per_s,correlation,distances,farthest_m,paper_m_per_s\n");
     for (barrier, _) in BARRIERS {
-        let rows = rows_of(wave, barrier)?;
+        let mut rows = rows_of(wave, barrier)?;
+        rows.retain(|&k| distance[k] >= 0.0);
         let nearest = rows.iter().map(|&k| distance[k]).fold(f64::INFINITY, f64::min);
         let largest =
             rows.iter().filter(|&&k| distance[k] <= nearest + 0.011).map(|&k| pressure[k]).fold(0.0, f64::max);
@@ -219,6 +238,7 @@ fn celerities(wave: &Table) -> Result<String, Failure> {
             })
             .collect();
         let (slope, correlation) = line(&reached);
+        let slope = if correlation >= STRAIGHT { slope } else { f64::NAN };
         let farthest = reached.iter().map(|p| p.1).fold(0.0, f64::max);
         let numbers = [largest, slope, correlation].map(|x| if x.is_finite() { number(x) } else { String::new() });
         text += &format!("{barrier},{},{},{},{}\n", numbers.join(","), reached.len(), number(farthest), paper(barrier));
