@@ -5,7 +5,8 @@
 
 cargo-mutants lists the mutants. Of each function, the mutated bodies stand beside the original one, and a number in the
 environment says which of them runs; so a file is compiled once and not once for each mutant. Mutants outside of functions, in
-constant functions and in functions that return an unnamed type are left to `measure.py run`, as is what the other tests notice.
+constant functions and in functions that return an unnamed type other than an iterator are left to `measure.py run`, as is what the
+other tests notice.
 """
 
 import json
@@ -72,11 +73,13 @@ class File:
         self.starts = [0]
         for line in self.text.split("\n"):
             self.starts.append(self.starts[-1] + len(line) + 1)
-        self.bodies = defaultdict(list)
+        self.bodies, self.iterators = defaultdict(list), set()
         for number, mutant in listed:
             if body := mutant["function"] and self.body(mutant["function"]):
                 span = [self.at(mutant["span"][end]) for end in ("start", "end")]
                 self.bodies[body].append((number, mutant, *span))
+                if "impl Iterator<" in mutant["function"]["return_type"]:
+                    self.iterators.add(body)
         # A function within a function that has mutants of its own.
         for inner in [b for b in self.bodies if any(o[0] < b[0] and b[1] < o[1] for o in self.bodies)]:
             del self.bodies[inner]
@@ -92,8 +95,8 @@ class File:
         for i in range(start, end):
             depth += (self.text[i] in "([") - (self.text[i] in ")]")
             if self.text[i] == "{" and depth == 0:
-                plain = "const fn" not in self.text[start:i] and "impl " not in function["return_type"]
-                return (i, end - 1) if plain else None
+                unnamed = "impl " in function["return_type"].replace("impl Iterator<", "", 1)
+                return None if unnamed or "const fn" in self.text[start:i] else (i, end - 1)
         return None
 
     def generate(self, wanted):
@@ -110,12 +113,16 @@ class File:
             if not here:
                 continue
             body = self.text[open_brace : close_brace + 1]
+            # Iterators of different bodies have different types.
+            boxed = (open_brace, close_brace) in self.iterators
+            left, right = ("Box::new(", ") as Box<dyn Iterator<Item = _> + '_>,") if boxed else ("", "")
             put(self.text[last:open_brace] + "{ match crate::mutant_switch::number() {\n")
             for number, mutant, start, end in here:
                 first = line
-                put(f"{number} => {body[: start - open_brace]}{mutant['replacement']} {body[end - open_brace :]}\n")
+                mutated = f"{body[: start - open_brace]}{mutant['replacement']} {body[end - open_brace :]}"
+                put(f"{number} => {left}{mutated}{right}\n")
                 lines[number] = range(first, line)
-            put(f"_ => {body} }} }}")
+            put(f"_ => {left}{body}{right} }} }}")
             last = close_brace + 1
         put(self.text[last:])
         return "".join(out), lines

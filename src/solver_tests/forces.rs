@@ -125,3 +125,22 @@ fn a_pic_rate_is_a_fraction_at_the_time_step() {
     assert_eq!(energy(PicShare::Rate(30.0)), energy(PicShare::Fraction(0.03)));
     assert!(energy(PicShare::Fraction(1.0)) < 0.7 * energy(PicShare::Fraction(0.0)));
 }
+
+#[test]
+fn what_acts_throughout_a_body_changes_its_momentum() {
+    // Gravity, damping, side walls and a field at once; and without weight.
+    for weightless in [false, true] {
+        let mut scene = block([0.3, -0.4], vec![]);
+        (scene.side_wall_friction, scene.gravity) = (0.3, [2.0, -9.81]);
+        scene.bodies[0].0.weightless = weightless;
+        scene.bodies[0].1.iter_mut().for_each(|p| p.state.stress = Stress { zz: -2500.0, ..Stress::default() });
+        let mut sim = Simulation::new(scene);
+        sim.set_damping(20.0);
+        sim.set_field(Some(AccelerationField(Arc::new(|_, _| [3.0, 5.0]))));
+        let before = sim.stock().momentum;
+        sim.step().unwrap();
+        let (after, given) = (sim.stock().momentum, sim.distributed_impulse_of(0));
+        assert!((0..2).all(|d| close(given[d], after[d] - before[d])), "{given:?} {before:?} {after:?}");
+        assert_eq!(sim.distributed_impulse_of(1), [0.0; 2]);
+    }
+}

@@ -116,9 +116,8 @@ impl StructureGauge {
     pub fn after_step(&mut self, simulation: &Simulation) {
         let (dt, time) = (simulation.time_step().dt, simulation.time());
         let foot = self.face.foot();
-        let about_foot = |p: [f64; 2], about_origin: f64| about_origin - (foot.x * p[1] - foot.y * p[0]);
-        let (impulse, moment) = contact_impulse(simulation, self.body);
-        self.contact.add(impulse, about_foot(impulse, moment), dt, time);
+        let (impulse, _) = contact_impulse(simulation, self.body);
+        self.contact.add(impulse, 0.0, dt, time);
         let (mut impulse, mut moment) = ([0.0; 2], 0.0);
         for (boundary, tally) in simulation.boundaries().iter().zip(simulation.step_tallies_of(self.body)) {
             let arm = boundary.foot() - foot;

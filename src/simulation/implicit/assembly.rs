@@ -117,7 +117,7 @@ impl ImplicitBody {
         };
         let reach = 2 * self.points.iter().map(spread).max().unwrap_or(0) + 1;
         let n = 2 * self.mass.len();
-        (self.stiffness, self.factor) = (Banded::new(n, reach.min(n - 1)), Banded::new(n, reach.min(n - 1)));
+        (self.stiffness, self.factor) = (Banded::new(n, reach), Banded::new(n, reach));
         let mut momentum = vec![0.0; n];
         for p in &self.points {
             let volume = body.point_volume * p.base.volume_ratio;

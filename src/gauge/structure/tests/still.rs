@@ -157,18 +157,28 @@ fn what_has_left_the_domain_has_gone_over() {
     run_until(&mut sim, 0.15).expect("it runs");
     assert!(near(sim.ledger().departed_mass, 2.0));
     assert!(near(gauge.sample(&sim).survey.overtopped, 2.0));
+    // Without a step in between there are no forces.
+    let sample = gauge.sample(&sim);
+    assert_eq!((sample.contact, sample.clamp, sample.inertia), Default::default());
+    assert_eq!((sample.clamp_moment, sample.imbalance), (0.0, 0.0));
 }
 
 #[test]
 fn deflection_is_that_of_the_points_at_the_face() {
-    for view in VIEWS {
-        let sim = Simulation::new(view.scene([vec![], vec![]]));
+    // Columns are numbered from the face on, or from the back.
+    for (view, from_back) in VIEWS.into_iter().flat_map(|view| [(view, false), (view, true)]) {
+        let column = |id: usize| if from_back { COUNTS[0] - 1 - id / COUNTS[1] } else { id / COUNTS[1] };
+        let mut scene = view.scene([vec![], vec![]]);
+        for p in &mut scene.bodies[0].1 {
+            p.id = (column(p.id as usize) * COUNTS[1] + p.id as usize % COUNTS[1]) as u32;
+        }
+        let sim = Simulation::new(scene);
         let mut gauge = view.gauge(&sim);
         assert!((gauge.body(), gauge.face().foot().x) == (0, FOOT[0]) && gauge.outline().len() == 2 * (4 + 12) - 4);
         // Bulging most at 0.225 m: w = 0.04 - (s - 0.225)^2 at the face, moving back with s m/s; the back bulges twice as far.
         for (id, place) in gauge.points.iter_mut().enumerate() {
-            let (column, s) = (id / COUNTS[1], (id % COUNTS[1]) as f64 * SPACING + 0.5 * SPACING - BURIED);
-            let w = (0.04 - (s - 0.225) * (s - 0.225)) * if column == 0 { 1.0 } else { 2.0 };
+            let s = (id % COUNTS[1]) as f64 * SPACING + 0.5 * SPACING - BURIED;
+            let w = (0.04 - (s - 0.225) * (s - 0.225)) * if column(id) == 0 { 1.0 } else { 2.0 };
             let (dx, v) = (view.vector([-w, 0.01]), view.vector([-s, 5.0]));
             let place = place.as_mut().expect("a point");
             (place.x, place.v) = ([place.x[0] + dx[0], place.x[1] + dx[1]], v);
@@ -304,6 +314,8 @@ fn a_gauge_on_a_body_reads_what_the_contacts_give_to_it() {
             scene.contacts = vec![rule];
             let mut sim = Simulation::new(scene);
             let mut gauge = BarrierGauge::on_body(&sim, structure, view.face());
+            let mut other = StructureGauge::new(&sim, structure, view.face(), COUNTS, view.angle);
+            assert_eq!(other.body(), structure);
             assert!(gauge.boundary().is_none() && gauge.face(&sim).foot().x == FOOT[0]);
             let before = sim.stock_of(|b| b != structure).momentum;
             let (mut profile, mut moment, mut time) = ([0.0; 6], 0.0, 0.0);
@@ -311,6 +323,7 @@ fn a_gauge_on_a_body_reads_what_the_contacts_give_to_it() {
             for _ in 0..12 {
                 sim.step().expect("a step");
                 gauge.after_step(&sim);
+                other.after_step(&sim);
                 time += sim.time_step().dt;
                 let mut force = 0.0;
                 for at in sim.contact_points() {
@@ -333,6 +346,8 @@ fn a_gauge_on_a_body_reads_what_the_contacts_give_to_it() {
             let expected = [out, up].map(|n| (lost[0] * n[0] + lost[1] * n[1]) / time);
             assert!(sample.normal > 0.0 && sample.tangential > 0.0, "{sample:?}");
             assert!(near(sample.normal, -expected[0]) && near(sample.tangential, expected[1]), "{view:?}: {sample:?}");
+            let contact = other.sample(&sim).contact;
+            assert!(near(contact.normal, sample.normal) && near(contact.tangential, sample.tangential), "{contact:?}");
             assert!(near(sample.moment * time, moment) && moment != 0.0, "{view:?}: {sample:?} {moment}");
             let rows = gauge.profile(THICKNESS);
             assert_eq!(rows.len(), 6);

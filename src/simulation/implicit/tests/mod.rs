@@ -4,7 +4,7 @@ mod reference;
 
 use crate::boundary::{Boundary, Friction};
 use crate::contact::rule::ContactRule;
-use crate::simulation::{PicShare, Simulation};
+use crate::simulation::{PicShare, Scene, Simulation};
 use crate::verification::Fault;
 use crate::verification::scene::{Brick, Material, scene};
 use nalgebra::Vector2;
@@ -12,13 +12,7 @@ use nalgebra::Vector2;
 const H: f64 = 0.02;
 
 /// A wall of 0.1 m by 0.3 m above its clamp, and a soft block that runs against it.
-fn wall_and_block(
-    young: f64,
-    implicit: bool,
-    speed: f64,
-    longest: f64,
-    change: impl Fn(&mut ContactRule),
-) -> Simulation {
+fn wall_and_block(young: f64, implicit: bool, speed: f64, longest: f64, change: impl Fn(&mut Scene)) -> Simulation {
     let (soft, stiff) = (Material::new(1e6, 0.3, 1500.0), Material::new(young, 0.2, 2400.0));
     let wall = Brick::new([0.4, -2.0 * H], [5, 17], H);
     let block = Brick::new([0.27, 0.0], [6, 6], H);
@@ -32,12 +26,11 @@ fn wall_and_block(
     let mut moving = block.points();
     moving.iter_mut().for_each(|p| p.v = [speed, 0.0]);
     scene.bodies.push((block.body(soft.law(&Fault::NONE), soft.density), moving));
-    let mut rule = ContactRule::with_structure(0, 1, 0.4);
-    change(&mut rule);
-    scene.contacts = vec![rule];
+    scene.contacts = vec![ContactRule::with_structure(0, 1, 0.4)];
     scene.gravity = [0.5, -9.81];
     scene.numerics.pic = PicShare::Rate(2.0);
     scene.numerics.max_time_step = longest;
+    change(&mut scene);
     Simulation::new(scene)
 }
 
