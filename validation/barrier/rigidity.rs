@@ -268,7 +268,8 @@ fn thresholds(analysis: &Analysis) -> Result<String, Failure> {
     let mut text = String::from("release,level,value,stiffness_1,low_1,high_1\n");
     for (release, points) in &analysis.releases {
         let curve = |of: Of, deviations: f64| -> Vec<(f64, f64)> {
-            let spread = |p: &Point| if p.peaks.deviation.is_finite() { p.peaks.deviation } else { 0.0 };
+            // No interval where nothing was repeated.
+            let spread = |p: &Point| if deviations == 0.0 { 0.0 } else { p.peaks.deviation };
             points.iter().map(|p| (p.stiffness, of(p, p.peaks.mean + deviations * spread(p)))).collect()
         };
         for (name, level, of) in levels {
