@@ -99,9 +99,35 @@ pub const VALIDATIONS: &[Validation] = &[
     flume::sensitivity::VALIDATION,
     flume::calibration::VALIDATION,
     flume::verdict::VALIDATION,
-    barrier::VALIDATION,
+    barrier::beam::VALIDATION,
+    barrier::rigid::VALIDATION,
+    barrier::impact::VALIDATION,
+    barrier::rigidity::VALIDATION,
+    barrier::grids::VALIDATION,
+    barrier::density::VALIDATION,
+    barrier::close_up::VALIDATION,
+    barrier::claims::VALIDATION,
     column::LEVEL,
     column::SLOPE,
+];
+
+/// Gives the runs of a study that is on record.
+pub type RecordedRows = fn() -> Result<Vec<record::RecordedRun>, Failure>;
+
+/// All studies that are on record, by the names of their files below `validation`.
+pub const STUDIES: &[(&str, RecordedRows)] = &[
+    ("flume/runs/baseline.csv", || flume::baseline::RECORD.rows()),
+    ("flume/runs/finest.csv", || flume::baseline::FINEST.rows()),
+    ("flume/runs/sensitivity.csv", || flume::sensitivity::RECORD.rows()),
+    ("flume/runs/calibration.csv", || flume::calibration::SAMPLE.rows()),
+    ("flume/runs/refined.csv", || flume::calibration::REFINED.rows()),
+    ("barrier/runs/rigidity.csv", || barrier::records::RIGIDITY.record.rows()),
+    ("barrier/runs/scatter.csv", || barrier::records::SCATTER.record.rows()),
+    ("barrier/runs/fine.csv", || barrier::records::FINE.record.rows()),
+    ("barrier/runs/rigid.csv", || barrier::records::RIGID.record.rows()),
+    ("barrier/runs/integration.csv", || barrier::records::INTEGRATION.record.rows()),
+    ("barrier/runs/density.csv", || barrier::records::DENSITY.record.rows()),
+    ("column/runs/columns.csv", column::rows),
 ];
 
 /// Writes tables and figures of an outcome into `folder`, which is created; returns their names.

@@ -1,10 +1,13 @@
 //! Runs the validations. What must hold whatever the sources say is judged first, then tables and figures are compared with those
 //! in `reports/validation`; after a change that is meant, `cargo reports` writes them anew.
 
-use checkdam::validation::{Context, Failure, VALIDATIONS, Validation, write};
+use checkdam::validation::record::{RecordedRun, processors, spread_out};
+use checkdam::validation::{Context, Failure, STUDIES, VALIDATIONS, Validation, write};
 use checkdam::verification::report::{Caught, faults_csv};
 use checkdam::verification::{Fault, Outcome};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn validation(name: &str) -> &'static Validation {
     VALIDATIONS.iter().find(|v| v.name == name).unwrap_or_else(|| panic!("no validation `{name}`"))
@@ -37,8 +40,18 @@ fn validate(name: &str) {
     let verdict = outcome.verdict(name, &folder);
     assert!(verdict.passes(), "\n{}", verdict.failing());
     for file in written {
-        compare(&file, std::fs::read(folder.join(&file)).expect("what was just written"));
+        let bytes = std::fs::read(folder.join(&file)).expect("what was just written");
+        compare(&file, if file.ends_with(".md") { as_kept(&bytes) } else { bytes });
     }
+}
+
+/// A page whose links lead to the files as they are called in `reports`.
+fn as_kept(page: &[u8]) -> Vec<u8> {
+    let text = std::str::from_utf8(page).expect("a page is text");
+    [".svg)", ".csv)", ".md)"]
+        .iter()
+        .fold(text.to_string(), |t, end| t.replace(end, &format!(".snap{end}")))
+        .into_bytes()
 }
 
 /// One test per validation, and a test that none was forgotten.
@@ -60,7 +73,14 @@ validations!(
     flume_sensitivity,
     flume_calibration,
     flume_verdict,
+    barrier_beam,
     barrier_rigid,
+    barrier_impact,
+    barrier_rigidity,
+    barrier_grids,
+    barrier_density,
+    barrier_close_up,
+    barrier_claims,
     column_level,
     column_slope
 );
@@ -80,9 +100,63 @@ fn every_fault_is_caught() {
     compare("faults.csv", faults_csv(&rows).into_bytes());
 }
 
-/// Every study that is on record, run again: the same rows. Takes about an hour.
+/// What the samples of all studies may cost together, in particle-steps: some eight minutes of one processor.
+const SAMPLES: f64 = 1e10;
+
+/// A fixed, spread-out sample of every study that is on record, run again: the same lines, byte for byte. A few minutes.
 #[test]
-#[ignore = "an hour: cargo test --release --test validation -- --ignored"]
+#[ignore = "minutes: cargo test --profile bench --test validation -- --ignored a_sample_of_the_record"]
+fn a_sample_of_the_record_is_what_the_studies_give() {
+    let (mut chosen, mut wrong) = (Vec::new(), Vec::new());
+    for (name, rows) in STUDIES {
+        let rows = rows().unwrap_or_else(|e| panic!("{name}: {e}"));
+        let costs: Vec<f64> = rows.iter().map(|r| r.cost).collect();
+        let sample = spread_out(&costs, SAMPLES / STUDIES.len() as f64);
+        println!("{name}: {} of {} runs", sample.len(), rows.len());
+        let mut rows: Vec<Option<RecordedRun>> = rows.into_iter().map(Some).collect();
+        chosen.extend(sample.into_iter().filter_map(|k| Some((*name, rows[k].take()?))));
+    }
+    // The dearest first: none of them is left for one processor at the end.
+    chosen.sort_by(|a, b| b.1.cost.total_cmp(&a.1.cost));
+    let (next, lines) = (AtomicUsize::new(0), Mutex::new(vec![String::new(); chosen.len()]));
+    std::thread::scope(|scope| {
+        for _ in 0..processors().get() {
+            scope.spawn(|| {
+                // A thread a run: many side by side use the processors better than many threads on one.
+                let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+                loop {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((name, run)) = chosen.get(k) else { return };
+                    let line = alone.install(|| (run.anew)()).unwrap_or_else(|e| panic!("{name}, {}: {e}", run.what));
+                    lines.lock().expect("no run has panicked")[k] = line;
+                }
+            });
+        }
+    });
+    let lines = lines.into_inner().expect("no run has panicked");
+    for ((name, run), line) in chosen.iter().zip(&lines) {
+        if *line != run.recorded {
+            wrong.push(format!("{name}, {}:\n  recorded {}\n  anew     {line}", run.what, run.recorded));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {} runs are not on record so:\n{}", wrong.len(), lines.len(), wrong.join("\n"));
+}
+
+/// No record is forgotten; `noise.csv` holds means that every `cargo test` compares with runs.
+#[test]
+fn every_record_is_among_the_studies() {
+    for folder in std::fs::read_dir(root().join("validation")).expect("the validations").filter_map(Result::ok) {
+        let Ok(files) = std::fs::read_dir(folder.path().join("runs")) else { continue };
+        for file in files.filter_map(Result::ok).filter(|f| f.file_name() != "noise.csv") {
+            let name = format!("{}/runs/{}", folder.file_name().to_string_lossy(), file.file_name().to_string_lossy());
+            assert!(STUDIES.iter().any(|s| s.0 == name), "{name} is not in STUDIES");
+        }
+    }
+}
+
+/// Every study that is on record, run again: the same rows. Takes two hours or more.
+#[test]
+#[ignore = "hours: cargo test --profile bench --test validation -- --ignored the_record_is_what"]
 fn the_record_is_what_the_studies_give() {
     let folder = folder("studies");
     for validation in VALIDATIONS.iter().filter(|v| !v.study.is_empty()) {

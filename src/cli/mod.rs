@@ -5,6 +5,7 @@ mod console;
 mod progress;
 mod run;
 mod study;
+mod suite;
 mod validate;
 mod verify;
 
@@ -79,9 +80,10 @@ enum Command {
     ///
     /// The study file (TOML) names the cases and what varies: every combination of some values, one change at a time, or a
     /// sample of ranges. The folder holds runs.csv, a row per run, and the figure if one is asked for. A study that was
-    /// stopped goes on where it was when the command is given again.
+    /// stopped goes on where it was when the command is given again. Studies of the project are known by the names of their
+    /// validations, such as barrier-rigidity: runs, tables and figures come with one command.
     Study {
-        /// The study file.
+        /// The study file, or the name of a study of the project.
         #[arg(value_name = "STUDY.toml")]
         study: PathBuf,
         /// Folder for the results [default: out/<name of the study file>]

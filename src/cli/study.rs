@@ -5,6 +5,7 @@ use super::progress::StudyDisplay;
 use super::{BAD_INPUT, ENDED_EARLY, stop_on_ctrl_c};
 use checkdam::output::write_text;
 use checkdam::study::{Runs, Study, StudyError, draw, plan, run};
+use checkdam::validation::{VALIDATIONS, Validation};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -12,6 +13,9 @@ use std::sync::atomic::Ordering;
 
 pub fn study(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode {
     let folder = out.unwrap_or_else(|| Path::new("out").join(path.file_stem().unwrap_or_default()));
+    if let Some(validation) = of_the_project(path) {
+        return super::validate::validate(&[validation.name.to_string()], true, &folder);
+    }
     match work_off(path, &folder, threads) {
         Ok(code) => code,
         Err(error) => {
@@ -19,6 +23,12 @@ pub fn study(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCod
             ExitCode::from(BAD_INPUT)
         }
     }
+}
+
+/// The validation whose studies are asked for by its name, with hyphens or underscores; a file of that name goes first.
+fn of_the_project(path: &Path) -> Option<&'static Validation> {
+    let name = path.to_str()?.replace('-', "_");
+    VALIDATIONS.iter().find(|v| !path.exists() && v.name == name && !v.study.is_empty())
 }
 
 fn work_off(path: &Path, folder: &Path, threads: Option<u16>) -> Result<ExitCode, StudyError> {

@@ -60,6 +60,20 @@ impl Axis {
         Self { lo: lo - room, hi: hi + room, ticks, decimals: 0, names }
     }
 
+    /// Takes the names of these ticks away; told are a tick's place as a share of the axis and its name.
+    pub(super) fn unname(&mut self, mut which: impl FnMut(f64, &str) -> bool) {
+        for (tick, name) in self.ticks.iter().zip(&mut self.names) {
+            if which((tick - self.lo) / (self.hi - self.lo), name) {
+                name.clear();
+            }
+        }
+    }
+
+    /// A range without ticks.
+    pub(super) fn bare(lo: f64, hi: f64) -> Self {
+        Self { lo, hi, ticks: Vec::new(), decimals: 0, names: Vec::new() }
+    }
+
     /// A tick as text.
     pub(super) fn label(&self, value: f64) -> String {
         if let Some(k) = self.ticks.iter().position(|t| *t == value)
@@ -230,6 +244,9 @@ mod tests {
         assert_eq!(log.ticks.iter().map(|t| log.label(*t)).collect::<Vec<_>>(), ["10⁻³", "10⁻²", "10⁻¹", "1", "10"]);
         let named = Axis::named(vec![0.0, 1.0], vec!["8".into(), "16".into()]);
         assert!(named.label(1.0) == "16" && named.lo < 0.0 && named.hi > 1.0);
+        let mut named = named;
+        named.unname(|place, name| place > 0.5 && name == "16");
+        assert_eq!((named.label(0.0), named.label(1.0)), ("8".into(), String::new()));
     }
 
     #[test]

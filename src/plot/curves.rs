@@ -8,8 +8,8 @@ use plotters::style::text_anchor::HPos;
 use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
 use super::style::{
-    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, TEXT_PX, VERMILION, WIDTH_PX, drawing, lighten,
-    line, render, stroke, text_width_px, units, write_at,
+    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, TEXT_PX, UNIT, VERMILION, WIDTH_PX, drawing,
+    lighten, line, render, stroke, text_width_px, units, write_at,
 };
 use crate::output::Table;
 
@@ -18,6 +18,10 @@ const COLOURS: [RGBColor; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];
 /// More points than this are drawn without markers.
 const MARKED: usize = 40;
 const LEGEND_ROW_PX: f64 = 19.0;
+/// Room to the right of a panel.
+const RIGHT_PX: f64 = 22.0;
+/// Least distance between the names of ticks.
+const BETWEEN_PX: f64 = 6.0;
 
 /// One column against another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,10 +137,11 @@ fn draw_panel(
     legend: &[(String, ShapeStyle)],
     titled: [bool; 2],
 ) -> Result<(), PlotError> {
-    let [x, y] = axes(what, curves);
     let top = if panel.title.is_empty() { 16.0 } else { 32.0 };
     let left = if what.panels.len() > 1 { 74.0 } else { 92.0 };
-    let margins = Margins { left, right: 22.0, top, bottom: 46.0 };
+    let wide = f64::from(area.dim_in_pixel().0) / f64::from(UNIT);
+    let [x, y] = axes(what, curves, wide - left - RIGHT_PX);
+    let margins = Margins { left, right: RIGHT_PX, top, bottom: 46.0 };
     let title = |k: usize, text| if titled[k] { text } else { "" };
     let frame = Frame::draw(area, &margins, (&x, title(1, what.x_title)), (&y, title(0, what.y_title)))?;
     let (left, right, upper, lower) = frame.bounds();
@@ -156,8 +161,8 @@ fn draw_panel(
     Ok(())
 }
 
-/// Axes around the points; the horizontal ticks are the values that occur, if they are few.
-fn axes(what: &Curves, curves: &[Drawn]) -> [Axis; 2] {
+/// Axes around the points, the horizontal one `wide` pixels long; its ticks are the values that occur, if they are few.
+fn axes(what: &Curves, curves: &[Drawn], wide: f64) -> [Axis; 2] {
     let all = || curves.iter().flat_map(|d| &d.points).filter(|p| p.0.is_finite());
     let range = |value: fn(&(f64, f64)) -> f64| {
         all().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)))
@@ -168,7 +173,17 @@ fn axes(what: &Curves, curves: &[Drawn]) -> [Axis; 2] {
     places.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     let named = |places: Vec<f64>, value: fn(f64) -> f64| {
         let names = places.iter().map(|p| crate::check::significant(value(*p), 3)).collect();
-        Axis::named(places, names)
+        let mut axis = Axis::named(places, names);
+        // From left to right, those that would touch the one before stay without a name.
+        let mut taken = f64::NEG_INFINITY;
+        axis.unname(|place, name| {
+            let half = 0.5 * text_width_px(name, TEXT_PX);
+            let middle = place * wide;
+            let free = middle - half > taken + BETWEEN_PX;
+            taken = if free { middle + half } else { taken };
+            !free
+        });
+        axis
     };
     if !what.logarithmic {
         // Zero belongs on the axis unless that would flatten the curves.

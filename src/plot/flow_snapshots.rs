@@ -14,8 +14,25 @@ use super::style::{
 use super::{PlotError, by_time, time_decimals};
 use crate::output::Table;
 
-/// Number of colours of the speed scale.
+/// Number of colours of the scale.
 const LEVELS: usize = 32;
+
+/// What the colours show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shown<'a> {
+    /// Column of the table of cells.
+    pub column: &'a str,
+    /// Title of the scale, with the unit.
+    pub title: &'a str,
+    /// Value of the last colour; values beyond it have that colour, too. The largest value if none is given.
+    pub top: Option<f64>,
+}
+
+impl Shown<'static> {
+    /// The speed.
+    pub const SPEED: Self = Self { column: "speed_m_per_s", title: "speed (m/s)", top: None };
+}
+
 /// A run of cells of a row that share a colour, in cell numbers: first to last of `row`.
 struct Run {
     row: i64,
@@ -40,16 +57,17 @@ pub fn draw(
     inclination_deg: f64,
     out_svg: impl AsRef<Path>,
 ) -> Result<(), PlotError> {
-    draw_with_barrier(field_csv, geometry_csv, None, inclination_deg, out_svg)
+    draw_with_barrier(field_csv, &Shown::SPEED, geometry_csv, None, inclination_deg, out_svg)
 }
 
-/// The same with a barrier that moves: `barrier_csv` holds its outline at the times of the cells, `time_s` and `x_m`, `y_m` of
+/// The same for any column, with a barrier that moves: `barrier_csv` holds its outline at the times of the cells, `time_s` and `x_m`, `y_m` of
 /// its points in order.
 ///
 /// # Errors
 /// As [`draw`].
 pub fn draw_with_barrier(
     field_csv: impl AsRef<Path>,
+    shown: &Shown,
     geometry_csv: impl AsRef<Path>,
     barrier_csv: Option<&Path>,
     inclination_deg: f64,
@@ -62,31 +80,31 @@ pub fn draw_with_barrier(
     }
     let field = Table::load(field_csv)?;
     let (x, y) = (field.column("x_m")?, field.column("y_m")?);
-    let speed = field.column("speed_m_per_s")?;
+    let value = field.column(shown.column)?;
     let mut panels = by_time(&field)?;
     for (_, rows) in &mut panels {
-        rows.retain(|k| x[*k].is_finite() && y[*k].is_finite() && speed[*k].is_finite());
+        rows.retain(|k| x[*k].is_finite() && y[*k].is_finite() && value[*k].is_finite());
     }
     panels.retain(|(_, rows)| !rows.is_empty());
     if panels.is_empty() {
-        return Err(PlotError::data(field.path(), "no row has a time, a position and a speed"));
+        return Err(PlotError::data(field.path(), "no row has a time, a position and a value"));
     }
-    let shown: Vec<usize> = panels.iter().flat_map(|(_, rows)| rows.iter().copied()).collect();
+    let cells: Vec<usize> = panels.iter().flat_map(|(_, rows)| rows.iter().copied()).collect();
     let outlines = outlines(&Table::load(geometry_csv)?)?;
     let barriers = barrier_csv.map_or_else(|| Ok(Vec::new()), |csv| moving(&Table::load(csv)?))?;
 
     let turn = Turn::new(inclination_deg);
     let fixed = outlines.iter().chain(barriers.iter().map(|(_, outline)| outline)).flatten().copied();
-    let corners = shown.iter().map(|k| [x[*k], y[*k]]).chain(fixed);
+    let corners = cells.iter().map(|k| [x[*k], y[*k]]).chain(fixed);
     let extent = Extent::around(corners.map(|point| turn.apply(point)));
-    let cell = spacing(shown.iter().map(|k| x[*k]))
-        .or_else(|| spacing(shown.iter().map(|k| y[*k])))
+    let cell = spacing(cells.iter().map(|k| x[*k]))
+        .or_else(|| spacing(cells.iter().map(|k| y[*k])))
         .unwrap_or(0.01 * extent.width.max(extent.height).max(1e-9));
     let extent = extent.grown(cell);
     // Cells are counted from the centre of one of them.
-    let base = [x[shown[0]], y[shown[0]]];
-    let fastest = shown.iter().fold(0.0, |most: f64, k| most.max(speed[*k]));
-    let scale = Axis::round(0.0, if fastest > 0.0 { fastest } else { 1.0 }, 5);
+    let base = [x[cells[0]], y[cells[0]]];
+    let most = shown.top.unwrap_or_else(|| cells.iter().fold(0.0, |most: f64, k| most.max(value[*k])));
+    let scale = Axis::round(0.0, if most > 0.0 { most } else { 1.0 }, 5);
     let layout = Layout::new(panels.len(), &extent);
     // Each cell reaches a little under the next, so that no background shows through the seams.
     let lap = 0.7 / (layout.px_per_m * cell);
@@ -98,7 +116,7 @@ pub fn draw_with_barrier(
             let spot = |point: Point| layout.spot(origin, &extent, turn.apply(point));
             let cells = rows.iter().map(|k| {
                 let count = |v: f64, from: f64| ((v - from) / cell).round() as i64;
-                let level = (speed[*k] / scale.hi * LEVELS as f64) as usize;
+                let level = (value[*k] / scale.hi * LEVELS as f64).max(0.0) as usize;
                 (count(y[*k], base[1]), count(x[*k], base[0]), level.min(LEVELS - 1))
             });
             for run in runs(cells.collect()) {
@@ -112,7 +130,7 @@ pub fn draw_with_barrier(
             let at = (units(origin.0), units(origin.1 - 0.5 * TITLE_PX));
             write_at(canvas, &format!("t = {time:.decimals$} s"), at, TEXT_PX, INK, HPos::Left)?;
         }
-        foot(canvas, &layout, &scale)
+        foot(canvas, &layout, shown.title, &scale)
     })
 }
 
@@ -135,7 +153,7 @@ fn wall(canvas: &Canvas<'_>, spots: Vec<Spot>) -> Result<(), PlotError> {
     stroke(canvas, closed, line(WALL, width))
 }
 
-/// The colour of a level of the speed scale.
+/// The colour of a level of the scale.
 fn colour(level: usize) -> RGBColor {
     viridis((level as f64 + 0.5) / LEVELS as f64)
 }
@@ -178,7 +196,7 @@ fn runs(mut cells: Vec<(i64, i64, usize)>) -> Vec<Run> {
 }
 
 /// Colour scale, length scale and direction of gravity.
-fn foot(canvas: &Canvas<'_>, layout: &Layout, scale: &Axis) -> Result<(), PlotError> {
+fn foot(canvas: &Canvas<'_>, layout: &Layout, title: &str, scale: &Axis) -> Result<(), PlotError> {
     let top = layout.height_px - FOOT_PX;
     // A round length of at most a fifth of the figure.
     let longest = 0.2 * f64::from(WIDTH_PX) / layout.px_per_m;
@@ -211,5 +229,5 @@ fn foot(canvas: &Canvas<'_>, layout: &Layout, scale: &Axis) -> Result<(), PlotEr
         stroke(canvas, vec![(x, to), (x, to + units(4.0))], line(INK, 1.0))?;
         write_at(canvas, &scale.label(*tick), (x, to + units(14.0)), SMALL_PX, INK, HPos::Center)?;
     }
-    write_at(canvas, "speed (m/s)", (units(left), units(top + 13.0)), SMALL_PX, INK, HPos::Left)
+    write_at(canvas, title, (units(left), units(top + 13.0)), SMALL_PX, INK, HPos::Left)
 }

@@ -20,6 +20,8 @@ const ROW_PX: f64 = 24.0;
 const HALF_PX: f64 = 7.0;
 /// Height of the labels at the ends of bars.
 const LABEL_PX: f64 = 0.85 * SMALL_PX;
+/// Significant digits of the numbers.
+const DIGITS: usize = 3;
 const HEAD_PX: f64 = 40.0;
 const FOOT_PX: f64 = 46.0;
 
@@ -33,6 +35,8 @@ pub struct Tornado<'a> {
     pub column: &'a str,
     /// What the numbers are, with their unit.
     pub title: &'a str,
+    /// Whether only runs count that came to rest (column `ended`); the others are named in any case.
+    pub at_rest: bool,
 }
 
 /// The numbers of a factor.
@@ -77,15 +81,12 @@ fn draw_panel(canvas: &Canvas<'_>, area: &Canvas<'_>, what: &Tornado, panel: &Pa
     let all = panel.factors.iter().flat_map(|f| f.ends.iter().map(|e| e.0));
     let all = all.chain(panel.noise.into_iter().flatten()).chain([panel.base]);
     let (lo, hi) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-    // Room for the labels at the ends of the bars.
     let wide = f64::from(WIDTH_PX) - margins.left - margins.right;
-    let label = |k: usize| {
-        let longest = panel.factors.iter().map(|f| text_width_px(&f.ends[k].1, LABEL_PX)).fold(0.0, f64::max);
-        (longest + 12.0) / wide
-    };
-    let span = (hi - lo).max(1e-12) / (1.0 - label(0) - label(1)).max(0.2);
-    let x = Axis::exact(lo - label(0) * span, hi + label(1) * span, 6);
-    let y = Axis::named(vec![0.0, rows.max(1) as f64], vec![String::new(), String::new()]);
+    let [left, right] = room(panel, [lo, hi], wide);
+    let mut x = Axis::exact(left, right, 6);
+    // There may have to be room for a label beyond zero, but there are no numbers.
+    x.ticks.retain(|t| lo < 0.0 || *t >= 0.0);
+    let y = Axis::bare(0.0, rows.max(1) as f64);
     let frame = Frame::draw(area, &margins, (&x, what.title), (&y, ""))?;
     let (left, right, top, bottom) = frame.bounds();
     write_at(canvas, panel.title, ((left + right) / 2, top - units(16.0)), TEXT_PX, INK, HPos::Center)?;
@@ -100,22 +101,41 @@ fn draw_panel(canvas: &Canvas<'_>, area: &Canvas<'_>, what: &Tornado, panel: &Pa
         write_at(canvas, &factor.name, (units(names + 4.0), height), SMALL_PX, INK, HPos::Right)?;
         for (end, colour) in [(&factor.ends[0], BLUE), (&factor.ends[1], VERMILION)] {
             let at = across(end.0);
-            if at == base {
+            if end.1.is_empty() {
                 continue;
             }
             let half = units(HALF_PX);
             let corners = vec![(base, height - half), (at, height - half), (at, height + half), (base, height + half)];
             fill(canvas, corners, &colour.mix(0.75))?;
-            let (shift, side) = if at < base { (-4.0, HPos::Right) } else { (4.0, HPos::Left) };
+            let (shift, side) = if end.0 < panel.base { (-4.0, HPos::Right) } else { (4.0, HPos::Left) };
             write_at(canvas, &end.1, (at + units(shift), height), LABEL_PX, GREY, side)?;
         }
     }
     stroke(canvas, vec![(base, top), (base, bottom)], line(INK, 1.0))
 }
 
+/// The range of an axis `wide` pixels long that has the values and the labels at the ends of the bars.
+fn room(panel: &Panel<'_>, [lo, hi]: [f64; 2], wide: f64) -> [f64; 2] {
+    let ends = || panel.factors.iter().flat_map(|f| &f.ends).filter(|e| !e.1.is_empty());
+    let [mut left, mut right] = [lo, hi];
+    // A longer axis makes labels longer, in its units; that settles after a few rounds where they leave room for bars at all.
+    for _ in 0..30 {
+        let scale = (right - left).max(1e-12) / wide;
+        let long = |text: &str| scale * (text_width_px(text, LABEL_PX) + 12.0);
+        for (value, label) in ends() {
+            if *value < panel.base {
+                left = left.min(value - long(label));
+            } else {
+                right = right.max(value + long(label));
+            }
+        }
+    }
+    [left, right]
+}
+
 fn select<'a>(table: &Table, what: &Tornado<'a>, panel: &(&'a str, &'a str)) -> Result<Panel<'a>, PlotError> {
     let (cases, factors, labels) = (table.cells("case")?, table.cells("factor")?, table.cells("label")?);
-    let values = table.column(what.column)?;
+    let (values, ended) = (table.column(what.column)?, table.cells("ended")?);
     let rows: Vec<usize> = (0..table.rows()).filter(|&k| cases[k] == panel.0 && values[k].is_finite()).collect();
     let Some(base) = rows.iter().find(|&&k| factors[k] == "base").map(|&k| values[k]) else {
         return Err(PlotError::data(table.path(), format!("there is no base of {}", panel.0)));
@@ -132,13 +152,26 @@ fn select<'a>(table: &Table, what: &Tornado<'a>, panel: &(&'a str, &'a str)) -> 
         .map(|name| {
             let mut ends = [(base, String::new()), (base, String::new())];
             for &k in rows.iter().filter(|&&k| factors[k] == *name) {
-                let text = || format!("{} ({})", labels[k], significant(values[k], 3));
+                let restless = if ended[k] == "at rest" { "" } else { ", not at rest" };
+                if what.at_rest && !restless.is_empty() {
+                    continue;
+                }
+                // What reads as the base says nothing.
+                let shown = significant(values[k], DIGITS);
+                if shown == significant(base, DIGITS) {
+                    continue;
+                }
+                let text = || format!("{}{restless} ({shown})", labels[k]);
                 if values[k] < ends[0].0 {
                     ends[0] = (values[k], text());
                 }
                 if values[k] > ends[1].0 {
                     ends[1] = (values[k], text());
                 }
+            }
+            for &k in rows.iter().filter(|&&k| what.at_rest && factors[k] == *name && ended[k] != "at rest") {
+                let before = if ends[1].1.is_empty() { "" } else { "; " };
+                ends[1].1 += &format!("{before}{}: not at rest", labels[k]);
             }
             Factor { name: name.clone(), ends }
         })
@@ -149,4 +182,62 @@ fn select<'a>(table: &Table, what: &Tornado<'a>, panel: &(&'a str, &'a str)) -> 
         _ => None,
     };
     Ok(Panel { title: panel.1, base, noise, factors: drawn })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: &str = "case,factor,label,ended,force_n\n\
+        steep,base,,at rest,10\n\
+        steep,gate,slow,at rest,4\n\
+        steep,gate,fast,at rest,11\n\
+        steep,cone,other,at rest,10.001\n\
+        steep,damping,little,at rest,12\n\
+        steep,damping,none,end time,19\n\
+        steep,noise,low,,9.5\n\
+        steep,noise,high,,10.5\n";
+
+    fn panel(at_rest: bool) -> Panel<'static> {
+        let what = Tornado { panels: &[], column: "force_n", title: "force (N)", at_rest };
+        select(&Table::parse(TABLE, "table.csv").expect("a table"), &what, &("steep", "steep")).expect("a panel")
+    }
+
+    #[test]
+    fn runs_that_did_not_come_to_rest_are_named() {
+        let ends = |panel: Panel| panel.factors.into_iter().map(|f| (f.name, f.ends.map(|e| e.1))).collect::<Vec<_>>();
+        let wanted = |name: &str, low: &str, high: &str| (name.to_string(), [low.to_string(), high.to_string()]);
+        assert_eq!(
+            ends(panel(false)),
+            [
+                wanted("damping", "", "none, not at rest (19)"),
+                wanted("gate", "slow (4)", "fast (11)"),
+                wanted("cone", "", ""),
+            ]
+        );
+        // Where they do not count.
+        assert_eq!(
+            ends(panel(true)),
+            [
+                wanted("gate", "slow (4)", "fast (11)"),
+                wanted("damping", "", "little (12); none: not at rest"),
+                wanted("cone", "", ""),
+            ]
+        );
+    }
+
+    #[test]
+    fn there_is_room_for_every_label_and_not_much_more() {
+        let panel = panel(true);
+        let [left, right] = room(&panel, [4.0, 12.0], 600.0);
+        let px = |v: f64| 600.0 * (v - left) / (right - left);
+        let gaps: Vec<f64> = (panel.factors.iter().flat_map(|f| &f.ends).filter(|e| !e.1.is_empty()))
+            .map(|(v, label)| {
+                let free = if *v < panel.base { px(*v) } else { 600.0 - px(*v) };
+                free - text_width_px(label, LABEL_PX)
+            })
+            .collect();
+        assert!(gaps.iter().all(|g| *g > 10.0), "{gaps:?}");
+        assert!(gaps.iter().any(|g| *g < 14.0), "{gaps:?}");
+    }
 }

@@ -100,7 +100,8 @@ pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<
     let bends = outline.exists();
     let flow = || {
         let (field, geometry, out) = (at("field.csv"), at("geometry.csv"), at("flow_snapshots.svg"));
-        plot::flow_snapshots::draw_with_barrier(field, geometry, bends.then_some(&*outline), inclination, out)
+        let shown = &plot::flow_snapshots::Shown::SPEED;
+        plot::flow_snapshots::draw_with_barrier(field, shown, geometry, bends.then_some(&*outline), inclination, out)
     };
     let clamp = || plot::curves::draw(at("barrier.csv"), &BARRIER_FORCES, at("barrier_forces.svg"));
     let bent = || plot::curves::draw(at(PEAK_PROFILE), &PEAK_DEFLECTION, at("barrier_deflection.svg"));
@@ -381,7 +382,7 @@ fn momentum_columns(boundaries: &[String]) -> Vec<String> {
 }
 
 /// Outlines of the boundaries that stay, planes cut to a strip two cells thick along the domain.
-fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
+pub(crate) fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
     let fixed = |b: &&Boundary| b.opening.is_none();
     simulation
         .boundaries()

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 /// Length of the means behind "final" values, s.
 const FINAL_WINDOW: f64 = 0.3;
-/// Gap between neighbouring points, in cells, from which a barrier counts as torn: half their distance at the start, with four
-/// points a cell.
+/// Gap between neighbouring points, in cells, from which a barrier counts as torn: half their distance at the start with four
+/// points a cell, three quarters of it with nine.
 const TORN: f64 = 0.25;
 /// Share of the forces that contact, clamp and inertia may miss each other by.
 const BALANCED: f64 = 1e-9;
@@ -20,12 +20,12 @@ const BALANCED: f64 = 1e-9;
 pub struct StructureResults {
     /// Height of the face above the foot, m.
     pub height_m: f64,
-    /// Largest of the samples of the contact force that are nearest to whole multiples of 20 ms, N: what an archive of that interval
+    /// Largest of the samples of the contact force that are the first at or after whole multiples of 20 ms, N: what an archive of that interval
     /// shows of the peak.
     pub peak_force_50hz_n: f64,
-    /// Share of the energy at release that was kinetic when the flow arrived.
+    /// Share of the energy at release that was kinetic when the energies were first recorded after the flow arrived, up to 10 ms later.
     pub kinetic_at_arrival: f64,
-    /// Share of the energy at release that was gone by then.
+    /// Share of the energy at release that was gone by that record.
     pub dissipated_at_arrival: f64,
     /// Largest deflection of the tip away from the material at any time, m.
     pub tip_deflection_max_m: f64,

@@ -109,7 +109,7 @@ pub fn run(
 }
 
 /// Runs a case on this thread alone: many runs side by side use the processors better than many threads on one.
-fn one(run: &PlannedRun, progress: &mut run::ProgressFn) -> Row {
+pub fn one(run: &PlannedRun, progress: &mut run::ProgressFn) -> Row {
     let pool = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool,
         Err(error) => return Row::failed(&error.to_string()),

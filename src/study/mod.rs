@@ -17,7 +17,7 @@ mod table;
 mod tests;
 
 pub use change::Change;
-pub use engine::{Finished, Progress, run};
+pub use engine::{Finished, Progress, one, run};
 pub use figure::draw;
 pub use file::{Axis, Choice, Figure, Option_ as ChoiceOption, Range, Replicates, Sample, Study, StudyError, Variant};
 pub use plan::{PlannedRun, plan};

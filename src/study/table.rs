@@ -104,8 +104,9 @@ impl Runs {
         let mut writer = csv::Writer::from_writer(Vec::new());
         // Quantities that no run has, as those of a bending barrier where there is none, are left out.
         let rows: Vec<&Row> = plan.iter().filter_map(|run| self.get(run)).collect();
-        let used: Vec<bool> =
-            (0..QUANTITIES.len()).map(|k| rows.iter().any(|r| r.values.get(k).is_some_and(|v| !v.is_empty()))).collect();
+        let used: Vec<bool> = (0..QUANTITIES.len())
+            .map(|k| rows.iter().any(|r| r.values.get(k).is_some_and(|v| !v.is_empty())))
+            .collect();
         let written = (|| -> csv::Result<()> {
             writer.write_record(self.header(&used))?;
             for run in plan {

@@ -16,6 +16,7 @@ mod judge;
 mod tests;
 
 use super::data::Source;
+use super::record::RecordedRun;
 use super::{Context, Failure, Validation};
 use crate::plot::PlotError;
 use crate::plot::curves::{self, Curve, Curves, Panel};
@@ -179,6 +180,24 @@ fn record(context: &mut Context) -> Result<String, Failure> {
     let text = plan::header() + &lines.ok_or(Failure::Stopped)?;
     crate::output::write_text(file, &text)?;
     Ok(text)
+}
+
+/// The recorded runs one by one.
+///
+/// # Errors
+/// The record is not as it should be.
+pub fn rows() -> Result<Vec<RecordedRun>, Failure> {
+    let recorded = verdict::recorded(RECORD).map_err(Failure::Record)?;
+    let rows = plan::all().into_iter().zip(RECORD.lines().skip(1).zip(recorded)).map(|(planned, (line, numbers))| {
+        let (what, recorded) = (line.splitn(4, ',').take(3).collect::<Vec<_>>().join(", "), line.to_string());
+        let cost = planned.cost(numbers.get("rest_1"));
+        let anew = move || {
+            let deposit = planned.run(&crate::verification::Fault::NONE)?;
+            Ok(plan::line(&planned, plan::numbers(&planned.column, &deposit)).trim_end().to_string())
+        };
+        RecordedRun { what, recorded, cost, anew: Box::new(anew) }
+    });
+    Ok(rows.collect())
 }
 
 fn run(context: &mut Context, inclined: bool) -> Result<Outcome, Failure> {

@@ -115,12 +115,25 @@ impl Planned {
         Self { case, cells, change: change.0, column }
     }
 
+    /// Time in which its height falls, s.
+    fn time(&self) -> f64 {
+        (self.column.height / super::release::GRAVITY).sqrt()
+    }
+
+    /// About how many particle-steps it takes to come to rest after so many of its times.
+    pub fn cost(&self, rest: f64) -> f64 {
+        let (c, h) = (&self.column, self.column.spacing());
+        let points = c.length * c.height / (h * h) * (c.per_cell * c.per_cell) as f64;
+        let step = c.cfl * h / (c.material.elastic.young / c.material.density).sqrt();
+        points * rest * self.time() / step
+    }
+
     /// Runs it.
     ///
     /// # Errors
     /// Where the solver gives up.
     pub fn run(&self, fault: &Fault) -> Result<Deposit, crate::verification::RungFailure> {
-        self.column.collapse(40.0 * (self.column.height / super::release::GRAVITY).sqrt(), fault)
+        self.column.collapse(40.0 * self.time(), fault)
     }
 }
 

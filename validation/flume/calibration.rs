@@ -5,7 +5,8 @@
 //! Runs are judged at rest. The sample is run on 20 mm cells; its best are run again at 10 mm, and the best of those is frozen in
 //! `40deg_calibrated.toml` and `23deg_calibrated.toml`.
 
-use super::baseline::{self, Numerical, judge};
+use super::baseline::{self, Numerical};
+use super::rules::judge;
 use super::runs::{self, Run};
 use super::{compare, read_case};
 use crate::output::Table;

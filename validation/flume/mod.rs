@@ -7,15 +7,19 @@ pub mod baseline;
 pub mod calibration;
 mod compare;
 mod figures;
+mod judge;
 pub mod noise;
+mod pages;
 mod physics;
-mod runs;
-mod scatter;
+mod rules;
+pub(super) mod runs;
+pub(super) mod scatter;
 pub mod sensitivity;
 pub mod verdict;
 
 use super::{Context, Failure, Validation};
 use crate::case::{Case, Contact, parse};
+use crate::plot::PlotError;
 use crate::run::{Experiment, Records, Summary, files, run_in_memory};
 use crate::study::quantities::{QUANTITIES, measure};
 use crate::verification::report::number;
@@ -28,7 +32,7 @@ pub const VALIDATION: Validation = Validation {
     title: "The flume at 40 and 23 degrees from its case files: balances, bounds, and the paper's numbers beside ours",
     study: "",
     run,
-    draw: figures::draw,
+    draw,
     covers: &[(FaultKind::ContactForce, 1.03)],
 };
 
@@ -135,7 +139,15 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     for flume in &flumes {
         outcome.tables.extend(figures::tables(flume));
     }
+    outcome.tables.extend(pages::tables(&flumes)?);
     Ok(outcome)
+}
+
+/// Figures of both cases, and the pages that they stand on.
+fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
+    let mut names = figures::draw(folder)?;
+    names.extend(pages::write(folder)?);
+    Ok(names)
 }
 
 /// All quantities of both cases, to nine digits: what changes in them is a change of the code.

@@ -1,5 +1,6 @@
 //! Rows of a table of runs.
 
+use super::compare::Counterpart;
 use crate::output::{OutputError, Table};
 use crate::study::quantities::QUANTITIES;
 use std::collections::BTreeMap;
@@ -26,6 +27,11 @@ impl Run {
     /// A quantity; NaN where the run has none.
     pub fn get(&self, quantity: &str) -> f64 {
         self.numbers.get(quantity).copied().unwrap_or(f64::NAN)
+    }
+
+    /// What stands beside a published number.
+    pub fn value(&self, of: Counterpart) -> f64 {
+        of(&|quantity| self.get(quantity))
     }
 }
 

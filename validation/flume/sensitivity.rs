@@ -1,7 +1,8 @@
 //! One thing at a time: what the inputs that the paper does not state, and those that it states, are worth.
 
-use super::baseline::{self, judge};
+use super::baseline;
 use super::read_case;
+use super::rules::judge;
 use super::runs::{self, Run};
 use super::scatter::Scatter;
 use crate::output::Table;
@@ -107,7 +108,9 @@ fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
     let mut names = Vec::new();
     for column in FIGURES {
         let title = QUANTITIES.iter().find(|q| q.name == column).map_or(column, |q| q.title);
-        let what = Tornado { panels: &[("40deg", "40 degrees"), ("23deg", "23 degrees")], column, title };
+        let at_rest = ["static_force_n", "end_s"].contains(&column);
+        let title = if column == "end_s" { "time to rest (s)" } else { title };
+        let what = Tornado { panels: &[("40deg", "40 degrees"), ("23deg", "23 degrees")], column, title, at_rest };
         let name = format!("flume_sensitivity_{column}.svg");
         tornado::draw(folder.join("flume_sensitivity_table.csv"), &what, folder.join(&name))?;
         names.push(name);

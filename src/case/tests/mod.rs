@@ -157,6 +157,42 @@ fn implausible_values_are_warnings() {
     assert!(parse(&light, "a").unwrap().warnings[0].contains("write 1500"));
 }
 
+/// The flume's gate is filled to its brim: on a grid line that holds, between two of them it does not.
+#[test]
+fn a_fill_up_to_a_crest_between_grid_lines_is_a_warning() {
+    let of = |text: &str| parse(text, "some/case.toml").unwrap_or_else(|error| panic!("{error}")).warnings;
+    let gate = |height: &str, cell: &str| {
+        let gate = "height_m = 0.5 ";
+        changed(gate, &format!("height_m = {height} ")).replacen("spacing_m = 0.01", &format!("spacing_m = {cell}"), 1)
+    };
+    // 0.5 m is 37.5 cells of 13.33 mm, 12.5 of 40 mm; 0.52 m is within a cell of the fill, 0.54 m is not.
+    for (height, cell, fix) in [
+        ("0.5", "0.0133333", Some("height_m = 0.514")),
+        ("0.5", "0.04", Some("height_m = 0.54")),
+        ("0.53", "0.04", Some("height_m = 0.54")),
+        ("0.48", "0.01", None),
+        ("0.5", "0.02", None),
+        ("0.54", "0.04", None),
+        ("0.6", "0.0133333", None),
+    ] {
+        let text = gate(height, cell);
+        let warnings = of(&text);
+        let Some(fix) = fix else {
+            assert_eq!(warnings, Vec::<String>::new(), "{height} {cell}");
+            continue;
+        };
+        let [warning] = &warnings[..] else { panic!("{warnings:?}") };
+        let line = format!("--> some/case.toml:{}:", line_of(&text, &format!("height_m = {height}  ")));
+        let words = ["warning: boundaries[2].height_m", "`sand` reaches up to 0.5 m", &line, "raise the gate", fix];
+        assert!(words.iter().all(|w| warning.contains(w)), "{warning}");
+    }
+    // A moved grid; another body's gate; a fill that stands away from it.
+    let moved = changed("thickness_m = 0.2 ", "origin_m = [0.0, 0.004]\nthickness_m = 0.2 ");
+    assert_eq!(of(&moved).len(), 1);
+    let away = moved.replacen("foot_m = [0.0, 0.0]", "foot_m = [0.1, 0.0]", 1);
+    assert_eq!(of(&away).len(), 0);
+}
+
 #[test]
 fn files_that_are_no_case_files() {
     let directory = tempfile::tempdir().unwrap();

@@ -2,10 +2,10 @@
 
 use super::{Problem, text, toml_text};
 use crate::case::boundary::{Boundary, Shape};
-use crate::case::geometry::penetration_of_rectangle;
+use crate::case::geometry::{direction, penetration_of_rectangle};
 use crate::case::material::Material;
 use crate::case::path::KeyPath;
-use crate::case::schema::{Case, Domain};
+use crate::case::schema::{Body, Case, Domain};
 
 /// An angle in degrees below this and above zero was probably meant in radians.
 const RADIANS_UP_TO: f64 = 1.6;
@@ -81,6 +81,48 @@ impl Warnings {
     }
 }
 
+/// A fill may reach up to a gate's crest that lies on a grid line, and to one cell below any other.
+const BELOW_CREST_CELLS: f64 = 1.0;
+
+impl Warnings {
+    /// A gate's contact acts at nodes. Where its crest lies between two of them, sand that reaches up to it creeps over it, and
+    /// does not come to rest.
+    fn brim(&mut self, at: &KeyPath, case: &Case, boundary: &Boundary) {
+        let Some(Shape::Gate(gate, _)) = boundary.shape(&case.grid) else { return };
+        let h = case.grid.spacing_m;
+        let (along, normal) = (direction(gate.inclination_deg), gate.normal());
+        let on_line = (0..2).any(|d| {
+            let crest = gate.foot_m[d] + gate.height_m * along[d];
+            let cells = (crest - case.grid.origin_m[d]) / h;
+            along[d].abs() == 1.0 && (cells - cells.round()).abs() < 1.0e-6
+        });
+        let sand = |body: &Body| case.materials.get(&body.material).is_some_and(|m| m.drucker_prager().is_some());
+        for body in case.bodies.iter().filter(|b| !on_line && boundary.acts_on(&b.name) && sand(b)) {
+            let from_foot = body.corners_m().map(|c| [c[0] - gate.foot_m[0], c[1] - gate.foot_m[1]]);
+            let least =
+                |way: [f64; 2]| from_foot.iter().map(|c| c[0] * way[0] + c[1] * way[1]).fold(f64::INFINITY, f64::min);
+            let (gap, low, top) = (least(normal), least(along), -least([-along[0], -along[1]]));
+            let brim = gate.height_m - BELOW_CREST_CELLS * h;
+            if gap.abs() < h && low < gate.height_m && top > brim + 1.0e-6 * h {
+                let height = text(((top + BELOW_CREST_CELLS * h) * 1000.0).ceil() / 1000.0);
+                self.0.push(Problem {
+                    path: at.key("height_m"),
+                    what: format!(
+                        "{} = {} looks like a mistake: `{}` reaches up to {} m along the gate, and would run over its crest",
+                        at.key("height_m"),
+                        toml_text(&gate.height_m),
+                        body.name,
+                        text(top)
+                    ),
+                    value: toml_text(&gate.height_m),
+                    allowed: "a crest on a grid line, or one cell above the material: contact acts at the grid's nodes".to_owned(),
+                    fix: format!("raise the gate: height_m = {height}"),
+                });
+            }
+        }
+    }
+}
+
 pub(super) fn warnings(case: &Case) -> Vec<Problem> {
     let mut warnings = Warnings(Vec::new());
     let gravity = KeyPath::top("gravity");
@@ -98,6 +140,7 @@ pub(super) fn warnings(case: &Case) -> Vec<Problem> {
             warnings.add_if(friction > 2.0, &at.key("friction"), friction, "a coefficient, not an angle", &fix);
         }
         warnings.outside(&at, case, boundary);
+        warnings.brim(&at, case, boundary);
     }
     if let Some(tilt) = &case.stages.tilt {
         let turn = case.gravity.inclination_deg - case.gravity.settle_inclination_or_default_deg();

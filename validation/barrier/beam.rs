@@ -1,0 +1,185 @@
+//! The barrier of the study without the flow: is the body that leans over the grid as stiff, and does it swing as fast, as a beam?
+//!
+//! A small uniform acceleration square to its face is switched on; the tip then swings between nothing and twice its deflection at
+//! rest. The mean over the first period and the period itself are compared with Timoshenko's beam. The clamp holds nodes of a grid that
+//! is turned by 60 degrees against it, so where the beam begins is known to a part of a cell: a foot that is deeper by d makes the
+//! deflection larger by 4 d/L and the frequency lower by 2 d/L.
+
+use crate::case::parse;
+use crate::check::{Check, Kind, Tolerance};
+use crate::plot::PlotError;
+use crate::plot::curves::{self, Curve, Curves};
+use crate::run::scene;
+use crate::simulation::Simulation;
+use crate::theory::cantilever::Cantilever;
+use crate::theory::elastic::Elastic;
+use crate::validation::{Context, Failure, Validation};
+use crate::verification::report::number;
+use crate::verification::{FaultKind, Outcome};
+use std::path::Path;
+
+/// The comparison.
+pub const VALIDATION: Validation = Validation {
+    name: "barrier_beam",
+    title: "The barrier alone, leaning over the grid: stiffness and first frequency of a beam",
+    study: "",
+    run,
+    draw,
+    covers: &[(FaultKind::Modulus, 1.08)],
+};
+
+/// Height of the face, m.
+const HEIGHT: f64 = 0.6;
+/// Deflection of the tip at rest that the acceleration is chosen for, m.
+const DEFLECTION: f64 = 5e-4;
+/// Cell sizes, m; that of the study, on which faults are looked for, is the last.
+const CELLS: [f64; 2] = [0.02, 0.01];
+
+/// What a cell size gives: mean deflection over one period over that at rest, period over the beam's; the swing as (time, deflection).
+struct Swing {
+    deflection: f64,
+    period: f64,
+    path: Vec<(f64, f64)>,
+}
+
+fn swing(cell: f64, modulus: f64, context: &mut Context) -> Result<Swing, Failure> {
+    let mut case = parse(include_str!("60deg.toml"), "60deg").map_err(|e| Failure::Record(e.to_string()))?.case;
+    case.grid.spacing_m = cell;
+    case.bodies.retain(|b| b.name == "barrier");
+    case.boundaries.retain(|b| b.name == "clamp");
+    case.contacts.clear();
+    case.bodies[0].weightless = false;
+    let depth = case.bodies[0].size_m()[0];
+    let counts = case.bodies[0].particle_counts(case.particle_spacing_m());
+    // A beam of the true modulus; the fault is in what is simulated.
+    let m = &case.materials["barrier"];
+    let elastic = Elastic { young: m.young_pa, poisson: m.poisson };
+    let beam =
+        Cantilever { elastic, density: m.density_kg_per_m3, length: HEIGHT, depth, width: case.grid.thickness_m };
+    let per_acceleration = beam.density * depth * beam.width;
+    let top = HEIGHT - 0.5 * case.particle_spacing_m();
+    let acceleration = DEFLECTION / beam.under_load(per_acceleration, top);
+    // Gravity against the normal of the face, which stands at 60 degrees to the x axis, points into the barrier.
+    (case.gravity.inclination_deg, case.gravity.settle_inclination_deg) = (-30.0, Some(-30.0));
+    case.gravity.magnitude_m_per_s2 = acceleration;
+    if let Some(m) = case.materials.get_mut("barrier") {
+        m.young_pa *= modulus;
+    }
+    let mut simulation = Simulation::new(scene::build(&case));
+    let rows = counts[1] as usize;
+    let tip = |simulation: &Simulation| {
+        let top = simulation.points_of(0).filter(|p| p.id as usize % rows == rows - 1);
+        let (sum, count) = top.fold(([0.0; 2], 0.0), |(s, n), p| ([s[0] + p.x[0], s[1] + p.x[1]], n + 1.0));
+        [sum[0] / count, sum[1] / count]
+    };
+    let start = tip(&simulation);
+    let normal = [libm::cos(60f64.to_radians()), libm::sin(60f64.to_radians())];
+    let expected = 2.0 * std::f64::consts::PI / beam.frequency();
+    let mut path = vec![(0.0, 0.0)];
+    while simulation.time() < 1.1 * expected {
+        simulation.step().map_err(|e| Failure::Step(Box::new(e)))?;
+        if simulation.steps().is_multiple_of(10) {
+            let now = tip(&simulation);
+            path.push((simulation.time(), -(now[0] - start[0]) * normal[0] - (now[1] - start[1]) * normal[1]));
+            if !(context.progress)(&format!("cells of {} mm: {:.2} s", 1e3 * cell, simulation.time())) {
+                return Err(Failure::Stopped);
+            }
+        }
+    }
+    let (period, mean) = first_period(&path, expected);
+    Ok(Swing { deflection: mean / DEFLECTION, period: period / expected, path })
+}
+
+/// Period from the lowest point after half of the expected one, by a parabola through the samples within a tenth of a period of it, and
+/// the mean up to there.
+fn first_period(path: &[(f64, f64)], expected: f64) -> (f64, f64) {
+    let late = path.iter().filter(|p| p.0 > 0.5 * expected);
+    let lowest = late.fold((0.0, f64::INFINITY), |a, p| if p.1 < a.1 { *p } else { a });
+    let near: Vec<(f64, f64)> =
+        path.iter().filter(|p| (p.0 - lowest.0).abs() < 0.1 * expected).map(|p| (p.0 - lowest.0, p.1)).collect();
+    // Least squares for a + b t + c t^2.
+    let power = |k: i32| near.iter().map(|p| p.0.powi(k)).sum::<f64>();
+    let with = |k: i32| near.iter().map(|p| p.0.powi(k) * p.1).sum::<f64>();
+    let matrix = nalgebra::Matrix3::from_fn(|i, j| power((i + j) as i32));
+    let right = nalgebra::Vector3::from_fn(|i, _| with(i as i32));
+    let fit = matrix.lu().solve(&right).unwrap_or_default();
+    let period = lowest.0 - 0.5 * fit[1] / fit[2];
+    let inside = path.windows(2).filter(|w| w[1].0 <= period);
+    let area: f64 = inside.map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0)).sum();
+    (period, area / period)
+}
+
+fn run(context: &mut Context) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::default();
+    let mut table = String::from("cell_m,deflection_over_beam_1,period_over_beam_1\n");
+    let mut path = String::from("cell_m,time_s,deflection_over_rest_1\n");
+    let cells = if context.fault.modulus == 1.0 { &CELLS[..] } else { &CELLS[1..] };
+    for &cell in cells {
+        let s = swing(cell, context.fault.modulus, context)?;
+        table += &format!("{cell},{},{}\n", number(s.deflection), number(s.period));
+        for (k, (t, w)) in s.path.iter().enumerate() {
+            if k % 10 == 0 {
+                path += &format!("{cell},{},{}\n", number(*t), number(w / DEFLECTION));
+            }
+        }
+        if cell != CELLS[1] {
+            continue;
+        }
+        let foot = [
+            (
+                "deflection at rest",
+                s.deflection,
+                0.04,
+                "a foot that lies up to half a cell deeper, between nodes: 4 d/L = 3.3 %, and 0.3/n^2",
+            ),
+            (
+                "first period",
+                s.period,
+                0.02,
+                "a foot that lies up to half a cell deeper, between nodes: 2 d/L = 1.7 %, and 0.3/n^2",
+            ),
+        ];
+        for (what, measured, allowed, reason) in foot {
+            outcome.checks.push(
+                Check::value(format!("cells of 10 mm: {what} over that of the beam"), measured, 1.0, "1")
+                    .within(Tolerance::Absolute(allowed), reason)
+                    .from(
+                        Kind::Analytic,
+                        "Timoshenko 1921 with E/(1 - nu^2), shear coefficient of Cowper 1966; Huang 1961",
+                    ),
+            );
+        }
+    }
+    outcome.tables.push(("barrier_beam".into(), table));
+    outcome.tables.push(("barrier_beam_swing".into(), path));
+    Ok(outcome)
+}
+
+const SWING: Curves = Curves {
+    x: "time_s",
+    x_title: "time (s)",
+    y_title: "deflection of the tip over that at rest",
+    curves: &[Curve { column: "deflection_over_rest_1", label: "", exact: false }],
+    split: &[("cell_m", "cell size in m: ")],
+    ..Curves::LINEAR
+};
+
+fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
+    let name = "barrier_beam_plot.svg";
+    curves::draw(folder.join("barrier_beam_swing.csv"), &SWING, folder.join(name))?;
+    Ok(vec![name.into()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_swing_gives_its_period_and_its_mean() {
+        let path: Vec<(f64, f64)> =
+            (0..1100).map(|k| f64::from(k) * 1e-3).map(|t| (t, 0.3 * (1.0 - libm::cos(6.5 * t)))).collect();
+        let (period, mean) = first_period(&path, 1.0);
+        let exact = 2.0 * std::f64::consts::PI / 6.5;
+        assert!((period / exact - 1.0).abs() < 2e-3 && (mean / 0.3 - 1.0).abs() < 2e-3, "{period} {mean}");
+    }
+}

@@ -1,0 +1,139 @@
+//! The flume at 60 degrees against four barriers on coarse cells, run as the command does it: what must hold at every moment, whatever
+//! the barrier.
+
+use super::close_up::BARRIERS;
+use super::records::RIGIDITY;
+use super::rigidity::LITERAL;
+use crate::check::{Check, Kind};
+use crate::gauge::StructureSample;
+use crate::plot::PlotError;
+use crate::run::{Records, Summary, run_in_memory};
+use crate::study::quantities::{QUANTITIES, measure};
+use crate::validation::{Context, Failure, Validation};
+use crate::verification::report::number;
+use crate::verification::{Fault, FaultKind, Outcome};
+use std::path::Path;
+
+/// The runs.
+pub const VALIDATION: Validation = Validation {
+    name: "barrier_impact",
+    title: "Four barriers on cells of 20 mm: the force on them read in three ways, and all balances",
+    study: "",
+    run,
+    draw: |_: &Path| -> Result<Vec<String>, PlotError> { Ok(Vec::new()) },
+    covers: &[(FaultKind::ContactForce, 1.02)],
+};
+
+/// Cell size, m, and end of the runs, s after release.
+const CELL: f64 = 0.02;
+const END: f64 = 0.7;
+
+fn run(context: &mut Context) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::default();
+    let mut text = String::from("quantity");
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    let mut forces =
+        String::from("barrier,contact_impulse_n_s,clamp_and_inertia_n_s,layer1_n_s,layer2_n_s,layer3_n_s\n");
+    // One barrier shows a fault.
+    let barriers = if context.fault == Fault::NONE { &BARRIERS[..] } else { &BARRIERS[..1] };
+    for &(name, stiffness) in barriers {
+        let plan = RIGIDITY.record.plan()?.1;
+        let own = plan.into_iter().find(|r| r.case_name == LITERAL && r.values[0] == stiffness);
+        let mut case = own.ok_or_else(|| Failure::Record(format!("the study has no barrier of {stiffness}")))?.case;
+        (case.grid.spacing_m, case.stages.run.end_time_s) = (CELL, END);
+        let progress = &mut *context.progress;
+        let mut stopped = false;
+        let (_, mut records, summary) = run_in_memory(&case, &mut |p| {
+            let go_on = progress(&format!("{name}: {} {:.2} s", p.stage.name(), p.time));
+            stopped |= !go_on;
+            go_on
+        })?;
+        if stopped {
+            return Err(Failure::Stopped);
+        }
+        for (_, sample) in &mut records.structure {
+            sample.contact.normal *= context.fault.contact_force;
+            sample.contact.tangential *= context.fault.contact_force;
+        }
+        outcome.checks.extend(checks(name, &records, &summary));
+        forces += &three_ways(name, &records);
+        text += &format!(",{name}");
+        columns.push(measure(&summary));
+    }
+    text.push('\n');
+    for (k, q) in QUANTITIES.iter().enumerate() {
+        // Round-off differs with the order of sums; its size is judged by the checks.
+        if q.name.starts_with("momentum_closure") || q.name.starts_with("imbalance") {
+            continue;
+        }
+        let cells: Vec<String> =
+            columns.iter().map(|c| if c[k].is_finite() { number(c[k]) } else { String::new() }).collect();
+        text += &format!("{},{}\n", q.name, cells.join(","));
+    }
+    outcome.tables.push(("barrier_impact_quantities".into(), text));
+    outcome.tables.push(("barrier_impact_three_ways".into(), forces));
+    Ok(outcome)
+}
+
+/// Contact less clamp and inertia over the sum of their magnitudes.
+fn imbalance(s: &StructureSample) -> f64 {
+    let left = [
+        s.contact.normal - s.clamp.normal - s.inertia.normal,
+        s.contact.tangential - s.clamp.tangential - s.inertia.tangential,
+    ];
+    let size = |n: f64, t: f64| n.hypot(t);
+    let sum = size(s.contact.normal, s.contact.tangential)
+        + size(s.clamp.normal, s.clamp.tangential)
+        + size(s.inertia.normal, s.inertia.tangential);
+    if sum > 0.0 { size(left[0], left[1]) / sum } else { 0.0 }
+}
+
+fn checks(name: &str, records: &Records, summary: &Summary) -> Vec<Check> {
+    let bound = |what: &str, measured: f64, limit: f64, reason: &str| {
+        Check::at_most(format!("{name}: {what}"), measured, limit, "1")
+            .because(reason)
+            .from(Kind::Conservation, "ledgers and gauges of the run")
+    };
+    // Samples without force have nothing to compare but round-off.
+    let loaded = records.structure.iter().filter(|(_, s)| s.contact.normal.abs() > 1.0);
+    let worst = loaded.map(|(_, s)| imbalance(s)).fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
+    let structure = summary.structure.as_ref();
+    vec![
+        bound(
+            "contact less clamp and inertia over their sum, largest of all samples",
+            worst,
+            1e-9,
+            "round-off of sums: two readings of one force at every moment",
+        ),
+        bound("momentum residual / sum of impulses", summary.momentum.closure_max, 1e-10, "round-off of sums"),
+        bound(
+            "energy residual / E0, largest",
+            summary.energy.residual_max,
+            0.02,
+            "second-order terms of the transfers; 2 % is where forces would begin to suffer",
+        ),
+        bound(
+            "deepest penetration / cell size",
+            summary.momentum.penetration_max_m / CELL,
+            1.0,
+            "contact acts on nodes; a point within a cell of the face is pushed back",
+        ),
+        bound(
+            "widest gap in the barrier, cells",
+            structure.map_or(f64::NAN, |s| s.gap_max_cells),
+            0.25,
+            "half a spacing of four points a cell: torn",
+        ),
+    ]
+}
+
+/// Impulse against the face by contact, by clamp and inertia, and by the stress of one, two and three layers of points.
+fn three_ways(name: &str, records: &Records) -> String {
+    let mut sums = [0.0; 5];
+    for (pair, row) in records.structure.windows(2).zip(&records.history[1..]) {
+        let (dt, s) = (pair[1].0 - pair[0].0, &pair[1].1);
+        let forces = [s.contact.normal, s.clamp.normal + s.inertia.normal, row.layers[0], row.layers[1], row.layers[2]];
+        sums.iter_mut().zip(forces).for_each(|(sum, f)| *sum += f * dt);
+    }
+    format!("{name},{}\n", sums.map(number).join(","))
+}

@@ -1,0 +1,146 @@
+//! The flume at 60 degrees against a rigid vertical wall: the limit of the barrier study of Ng et al., predicted.
+//!
+//! Two readings of the release: the literal one, and the set that the flume at 40 and 23 degrees was calibrated with, untouched.
+//! What must hold is judged; the paper's numbers, none of which was used for anything, stand beside ours.
+
+use super::PUBLISHED;
+use crate::case::parse;
+use crate::check::{Check, Expected, Kind};
+use crate::plot::force_time::{self, ReferenceLine};
+use crate::plot::{PlotError, flow_snapshots};
+use crate::theory::sliding_block::acceleration_from_rest;
+use crate::validation::flume::{Flume, base_friction};
+use crate::validation::{Context, Failure, Validation, data};
+use crate::verification::Outcome;
+use crate::verification::report::number;
+use std::path::Path;
+
+/// The prediction.
+pub const VALIDATION: Validation = Validation {
+    name: "barrier_rigid",
+    title: "The flume at 60 degrees against a rigid vertical wall, predicted with the literal and the calibrated release",
+    study: "",
+    run,
+    draw,
+    covers: &[],
+};
+
+/// Readings: name, case.
+const READINGS: [(&str, &str); 2] =
+    [("literal", include_str!("60deg_rigid.toml")), ("calibrated", include_str!("60deg_rigid_calibrated.toml"))];
+
+/// What of a run stands beside a published quantity.
+fn counterpart(flume: &Flume, case: &str, quantity: &str) -> Option<f64> {
+    let front = flume.summary.front.iter().find(|f| f.x_m == 0.7);
+    Some(match (case, quantity) {
+        ("any", "flow arrives at the barrier") => flume.get("arrival_s"),
+        ("any", "time of the largest pressure") => flume.get("peak_20ms_time_s"),
+        ("any", "incoming flow velocity") => front.map_or(f64::NAN, |f| f.velocity_m_per_s),
+        ("concrete", "share of the initial energy dissipated") => flume.get("dissipated_1"),
+        _ => return None,
+    })
+}
+
+fn run(context: &mut Context) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::default();
+    let mut flumes = Vec::new();
+    for (name, text) in READINGS {
+        let case = parse(text, name).map_err(|e| Failure::Record(e.to_string()))?.case;
+        let folder = context.folder.join(format!("barrier_rigid_{name}_run"));
+        let flume = Flume::run(name, &case, Some(&folder), context)?;
+        outcome.checks.extend(checks(&flume));
+        flumes.push(flume);
+    }
+    let mut text = String::from("case,quantity,unit,kind,published,uncertainty,literal,calibrated\n");
+    for datum in data::rows(PUBLISHED) {
+        let ours: Option<Vec<f64>> = flumes.iter().map(|f| counterpart(f, &datum.case, &datum.quantity)).collect();
+        let Some(ours) = ours else { continue };
+        let numbers: Vec<String> = [datum.value, datum.uncertainty].iter().chain(&ours).map(|x| number(*x)).collect();
+        text += &format!("{},{},{},{},{}\n", datum.case, datum.quantity, datum.unit, datum.kind, numbers.join(","));
+    }
+    outcome.tables.push(("barrier_rigid_against_paper".into(), text));
+    let mut text = String::from("quantity,literal,calibrated\n");
+    for quantity in crate::study::quantities::QUANTITIES.iter().filter(|q| q.name != "momentum_closure_1") {
+        let numbers: Vec<String> = flumes
+            .iter()
+            .map(|f| f.get(quantity.name))
+            .map(|x| if x.is_finite() { number(x) } else { String::new() })
+            .collect();
+        if numbers.iter().all(String::is_empty) {
+            continue;
+        }
+        text += &format!("{},{}\n", quantity.name, numbers.join(","));
+    }
+    outcome.tables.push(("barrier_rigid_quantities".into(), text));
+    Ok(outcome)
+}
+
+/// What must hold whatever the paper says.
+fn checks(flume: &Flume) -> Vec<Check> {
+    let (name, summary) = (flume.name, &flume.summary);
+    let bound = |what: &str, measured: f64, limit: f64, reason: &str| {
+        Check::at_most(format!("{name}: {what}"), measured, limit, "1")
+            .because(reason)
+            .from(Kind::Conservation, "balance of the ledger")
+    };
+    let mut checks = vec![
+        bound("momentum residual / sum of impulses", summary.momentum.closure_max, 1e-10, "round-off of sums"),
+        bound(
+            "energy residual / E0, largest",
+            summary.energy.residual_max,
+            0.02,
+            "second-order terms of the transfers; 2 % is where forces would begin to suffer",
+        ),
+        bound(
+            "deepest penetration / cell size",
+            summary.momentum.penetration_max_m / summary.case.grid.spacing_m,
+            1.0,
+            "a wall acts on its nodes; a point within one cell behind them is still pushed back",
+        ),
+    ];
+    // Side walls, which the balance of the deposit leaves out, hold a part of it, and may brake the front below a block.
+    let by_base_alone = summary.case.side_walls.friction == 0.0;
+    if let Some(d) = summary.deposit.as_ref().filter(|_| by_base_alone) {
+        let share = d.equilibrium_residual_n.abs() / d.weight_along_flume_n;
+        checks.push(
+            Check::at_most(format!("{name}: |weight + base friction - other walls| / weight"), share, 0.01, "1")
+                .because("at rest, with less than 1e-4 of the energy kinetic; means over 0.3 s")
+                .from(Kind::Conservation, "equilibrium along the flume"),
+        );
+    }
+    if by_base_alone {
+        let a = acceleration_from_rest(
+            summary.case.gravity.magnitude_m_per_s2,
+            summary.case.gravity.inclination_deg.to_radians(),
+            base_friction(&summary.case),
+        );
+        for f in summary.front.iter().filter(|f| [0.3, 0.5, 0.7].contains(&f.x_m)) {
+            checks.push(
+                Check::new(
+                    format!("{name}: front velocity at {} m", f.x_m),
+                    f.velocity_m_per_s,
+                    Expected::AtLeast((2.0 * a * f.x_m).sqrt()),
+                    "m/s",
+                )
+                .because("pressure from behind only adds")
+                .from(Kind::Analytic, "a block from rest with the base's friction"),
+            );
+        }
+    }
+    checks
+}
+
+fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
+    let mut names = Vec::new();
+    for (name, _) in READINGS {
+        let run = folder.join(format!("barrier_rigid_{name}_run"));
+        let mut at = |figure: &str| {
+            names.push(format!("barrier_rigid_{name}_{figure}.svg"));
+            folder.join(format!("barrier_rigid_{name}_{figure}.svg"))
+        };
+        let lines: [ReferenceLine; 0] = [];
+        force_time::draw(run.join("history.csv"), &lines, at("force_time"))?;
+        flow_snapshots::draw(run.join("field.csv"), run.join("geometry.csv"), 60.0, at("flow_snapshots"))?;
+    }
+    Ok(names)
+}
