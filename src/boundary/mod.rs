@@ -204,7 +204,7 @@ impl Boundary {
         let beyond = self.travel - (self.travel / spacing).map(f64::round) * spacing;
         let (d, s) = self.face_coordinates((Vector2::from(x) + beyond).into());
         let normal = match self.solid {
-            Solid::HalfSpace { .. } => (d <= tolerance).then_some(self.normal)?,
+            Solid::HalfSpace { .. } => (d <= self.reach(spacing, tolerance)).then_some(self.normal)?,
             Solid::Slab { height, thickness, face_only, .. } => {
                 let bottom = match () {
                     () if self.free_below > 0.0 => self.free_below,
@@ -225,6 +225,13 @@ impl Boundary {
             }
         };
         Some(Contact { normal: normal.into(), along: s })
+    }
+
+    /// How far in front of a plane nodes are held, m: those that lie on it. A body between a held and a free row of nodes bends from
+    /// the held one on, which, were only nodes behind the plane held, would lie half a cell behind it on the average of all places of
+    /// the grid. A clamp therefore holds the rows nearest to its plane; of two that are as near, the one behind.
+    fn reach(&self, spacing: f64, tolerance: f64) -> f64 {
+        if self.friction == Friction::Bonded { 0.5 * spacing - tolerance } else { tolerance }
     }
 
     /// Opens a released gate by what it moves in `dt`, and moves a boundary that has a velocity.

@@ -64,6 +64,9 @@ pub struct Stepping {
     pub time_step_max_s: f64,
     /// What limited the shortest time step.
     pub time_step_limited_by: String,
+    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps and contact agreed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_sweeps_max: Option<usize>,
 }
 
 /// Forces on the barrier.
@@ -269,6 +272,11 @@ impl Summary {
                 warn("the flow did not reach the barrier".into());
             }
         }
+        if let Some([most, allowed]) = sim.contact_sweeps()
+            && most >= allowed
+        {
+            warn(format!("contact with a body in implicit steps was not settled after {allowed} sweeps of a step"));
+        }
         if let Some(s) = &self.structure {
             s.warn(&mut warn);
         }
@@ -300,6 +308,7 @@ fn stepping(experiment: &Experiment) -> Stepping {
         time_step_min_s: if facts.run_steps > 0 { facts.time_step[0] } else { 0.0 },
         time_step_max_s: facts.time_step[1],
         time_step_limited_by: facts.shortest.map_or_else(|| "no step was made".into(), |s| sim.describe_limit(&s)),
+        contact_sweeps_max: sim.contact_sweeps().map(|[most, _]| most),
     }
 }
 

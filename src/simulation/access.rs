@@ -185,6 +185,12 @@ impl Simulation {
         self.coupling.points()
     }
 
+    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps and contact agreed, and the most
+    /// that are allowed; `None` without such bodies.
+    pub fn contact_sweeps(&self) -> Option<[usize; 2]> {
+        self.implicit.iter().map(|b| b.passes).max().map(|most| [most, super::implicit::PASSES])
+    }
+
     /// What boundaries did to single nodes in the last step, in the order of the nodes.
     pub fn holds(&self) -> impl Iterator<Item = &Hold> {
         self.bands().flat_map(|b| &b.nodes.holds)

@@ -1,6 +1,6 @@
 //! The impulses at shared nodes, with boundaries and contact together.
 
-use super::{ContactPoint, Coupling, Solved, VelocityField};
+use super::{ContactPoint, Coupling, SharedSide, Solved, VelocityField};
 use crate::band::Band;
 use crate::boundary::{Boundary, nodes};
 use crate::contact::Vector;
@@ -41,7 +41,8 @@ impl Coupling {
     fn approach(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], implicit: &mut [ImplicitBody]) {
         for p in &self.pending {
             for side in &self.sides[self.nodes[p.node as usize].sides.clone()] {
-                if let Some(body) = implicit.iter_mut().find(|b| b.field == side.field) {
+                let here = fields[side.field].bands[side.band].nodes.open[side.index].mass > 0.0;
+                if let Some(body) = implicit.iter_mut().find(|b| here && b.field == side.field) {
                     body.touch(body.slot(side.band, side.index));
                 }
             }
@@ -111,8 +112,9 @@ impl Coupling {
         let own = &self.sides[shared.sides.clone()];
         if !pending.is_empty() {
             for body in implicit.iter() {
-                let at = own.iter().filter(|at| at.field == body.field);
-                at.for_each(|at| body.offer(body.slot(at.band, at.index), &mut fields[at.field]));
+                let slot = |at: &SharedSide| body.slot(at.band, at.index);
+                let touched = own.iter().filter(|at| at.field == body.field && body.is_touched(slot(at)));
+                touched.for_each(|at| body.offer(slot(at), &mut fields[at.field]));
             }
         }
         let mut sides: Sides = Default::default();
@@ -154,7 +156,8 @@ impl Coupling {
                 node::solve(sides, touches);
             }
             for body in implicit.iter_mut() {
-                let Some(k) = own.iter().position(|at| at.field == body.field) else { continue };
+                let touched = |at: &SharedSide| at.field == body.field && body.is_touched(body.slot(at.band, at.index));
+                let Some(k) = own.iter().position(touched) else { continue };
                 let mut impulse = [0.0; 2];
                 for touch in touches.iter().filter(|t| t.sides.contains(&k)) {
                     let (sign, p) = (if touch.sides[1] == k { 1.0 } else { -1.0 }, touch.vector_impulse());

@@ -1,6 +1,6 @@
 //! Mass, stiffness and stencils of a body in implicit steps, anew after each sort.
 
-use super::{Banded, ImplicitBody, Point};
+use super::{Banded, ImplicitBody, Point, TOUCHABLE};
 use crate::constitutive::AnyLaw;
 use crate::lanes::floor_to_int;
 use crate::shape::{AveragedHat, Hat, STENCIL, Shape1d, ShapeFunction};
@@ -98,6 +98,7 @@ impl ImplicitBody {
             self.mass.push(mass[node]);
             self.clamped.push(field.bands[band].nodes.holds.iter().any(|h| h.node as usize == node));
         }
+        self.touchable = TOUCHABLE * self.mass.iter().fold(0.0, |a: f64, m| a.max(*m));
         for point in &mut self.points {
             for (node, weight) in point.nodes.iter_mut().zip(point.weight) {
                 *node = if weight > 0.0 { number[*node as usize] } else { u32::MAX };

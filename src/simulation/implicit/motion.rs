@@ -31,7 +31,7 @@ impl ImplicitBody {
             s.touched = false;
             let open = &mut field.bands[s.band].nodes.open[s.index];
             *open = Default::default();
-            if s.node < self.mass.len() {
+            if self.mass.get(s.node).is_some_and(|&m| m >= self.touchable) {
                 open.mass = self.mass[s.node];
                 open.old = [self.velocity[2 * s.node], self.velocity[2 * s.node + 1]];
                 open.free = [self.free[2 * s.node], self.free[2 * s.node + 1]];

@@ -42,7 +42,7 @@ fn mass_velocity_force_and_stiffness_are_sums_over_points() {
         body.stiffness.multiply(&u, &mut force);
         assert!(apart(&force, &reference.stiffness_times(&u)) < ROUND, "{shape:?}");
         let clamp = &sim.boundaries()[0];
-        let held: Vec<bool> = reference.x.iter().map(|x| clamp.depth(*x) > -1e-6 * H).collect();
+        let held: Vec<bool> = reference.x.iter().map(|x| clamp.depth(*x) > -0.5 * H).collect();
         assert!(body.clamped == held && held.contains(&true) && held.contains(&false));
     }
 }
@@ -232,10 +232,13 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         }
         body.predict(field, forces, dt);
         let shared = body.shared.clone();
+        let fullest = body.mass.iter().fold(0.0f64, |a, m| a.max(*m));
+        let next_to_none = shared.iter().filter(|s| s.node < n / 2 && body.mass[s.node] < 1e-3 * fullest).count();
+        assert!(next_to_none > 0, "contact leaves nothing out");
         for (k, s) in shared.iter().enumerate() {
             assert_eq!(body.slot(s.band, s.index), k);
             let open = field.bands[s.band].nodes.open[s.index];
-            if s.node < n / 2 {
+            if s.node < n / 2 && body.mass[s.node] >= 1e-3 * fullest {
                 let two = |values: &[f64]| [values[2 * s.node], values[2 * s.node + 1]];
                 assert_eq!((open.mass, open.old, open.free), (body.mass[s.node], two(&old[0]), two(&body.free)));
             } else {
