@@ -88,6 +88,22 @@ fn a_plane_holds_what_is_not_in_front_of_it() {
 }
 
 #[test]
+fn a_clamp_holds_the_rows_nearest_to_its_plane() {
+    // Rows of nodes H apart along the normal, the one behind the plane at all distances from it.
+    let clamp = Boundary { friction: Friction::Bonded, ..plane(vector(-3.0, 4.0)) };
+    let held = |d: f64| clamp.hold((vector(1.0, 2.0) + d * clamp.normal + clamp.tangent).into(), H, 1e-9, false);
+    let mut deep = 0.0;
+    for k in 0..100 {
+        let behind = -H * f64::from(k) / 100.0;
+        let last = if held(behind + H).is_some() { behind + H } else { behind };
+        assert!(held(behind).is_some() && held(last + H).is_none() && last.abs() < 0.5 * H + 1e-12, "{behind} {last}");
+        deep -= last / 100.0;
+    }
+    // 0.5 of a hundred: the row that lies half a cell behind, which as well as the one in front of it is the nearest.
+    assert!((deep - 0.005 * H).abs() < 1e-9, "{deep}: the mean over all places is on the plane");
+}
+
+#[test]
 fn a_wall_holds_with_the_side_that_is_nearest() {
     let (left, right, up) = ([-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]);
     for (x, normal) in [
