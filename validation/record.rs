@@ -147,9 +147,9 @@ pub fn spread_out(costs: &[f64], budget: f64) -> Vec<usize> {
     chosen
 }
 
-/// How many runs go side by side.
+/// How many runs go side by side: as many as there are threads.
 pub fn processors() -> NonZero<usize> {
-    std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)
+    NonZero::new(rayon::current_num_threads()).unwrap_or(NonZero::<usize>::MIN)
 }
 
 #[cfg(test)]

@@ -14,12 +14,17 @@ use std::sync::atomic::Ordering;
 pub fn study(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode {
     let folder = out.unwrap_or_else(|| Path::new("out").join(path.file_stem().unwrap_or_default()));
     if let Some(validation) = of_the_project(path) {
+        super::use_threads(threads);
         return super::validate::validate(&[validation.name.to_string()], true, &folder);
     }
     match work_off(path, &folder, threads) {
         Ok(code) => code,
         Err(error) => {
             tell!("{}", error.to_string().trim_end());
+            if matches!(error, StudyError::Unreadable { .. }) && !path.exists() {
+                let known: Vec<_> = VALIDATIONS.iter().filter(|v| !v.study.is_empty()).map(|v| v.name).collect();
+                tell!("  studies of the project: {}", known.join(", ").replace('_', "-"));
+            }
             ExitCode::from(BAD_INPUT)
         }
     }

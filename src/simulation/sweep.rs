@@ -8,7 +8,10 @@
 //! seams follows. Which band is worked on when makes no difference to the numbers, so neither does the number of parts.
 
 use crate::band::Band;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+/// Looks at a flag before a thread that waits for another may fall asleep: some ten microseconds.
+const LOOKS: u32 = 2000;
 /// Most parts a sweep is divided into.
 const MAX_PARTS: usize = 64;
 /// Bands that make a part worth a thread.
@@ -78,9 +81,31 @@ fn parts_between<S: Sync>(
     };
     let (before, after) = bands.split_at_mut(seam - first);
     let (seams_before, seams_after) = (&seams[..seams.len() / 2], &seams[seams.len() / 2 + 1..]);
-    rayon::join(
+    together(
         || parts_between(stages, before, seams_before, first, [open[0], true], work),
         || parts_between(stages, after, seams_after, seam, [true, open[1]], work),
+    );
+}
+
+/// Does both, side by side if a thread is free. The one that is done first waits for the other with open eyes for a while: a thread
+/// that falls asleep takes as long to wake up as a small sweep takes.
+pub fn together(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
+    let [a_done, b_begun, b_done] = [const { AtomicBool::new(false) }; 3];
+    let is = |flag: &AtomicBool| flag.load(Ordering::Acquire);
+    let wait = |go_on: &dyn Fn() -> bool| (0..LOOKS).take_while(|_| go_on()).for_each(|_| std::hint::spin_loop());
+    rayon::join(
+        || {
+            a();
+            a_done.store(true, Ordering::Release);
+            // What no other thread has taken up yet is done by this one, after this.
+            wait(&|| is(&b_begun) && !is(&b_done));
+        },
+        || {
+            b_begun.store(true, Ordering::Release);
+            b();
+            b_done.store(true, Ordering::Release);
+            wait(&|| !is(&a_done));
+        },
     );
 }
 
@@ -117,7 +142,7 @@ fn around_seams<S: Sync>(
     if seams.len() > 1 {
         let start = seam - longest;
         let (before, after) = bands.split_at_mut(start - first);
-        rayon::join(
+        together(
             || around_seams(stages, before, &seams[..middle], first, longest, work),
             || around_seams(stages, after, &seams[middle..], start, longest, work),
         );
@@ -128,14 +153,15 @@ fn around_seams<S: Sync>(
         let lag = lag(stages, number);
         match on {
             On::Nodes => (seam - lag..=seam + lag).for_each(|k| at(bands, k, stage, work)),
-            On::Points => {
+            On::Points if lag > 0 => {
                 let (before, after) = bands[seam - lag..seam + lag].split_at_mut(lag);
                 // In two halves although it is little, so that no thread falls asleep in between.
-                rayon::join(
+                together(
                     || before.iter_mut().for_each(|band| work(stage, None, band)),
                     || after.iter_mut().for_each(|band| work(stage, None, band)),
                 );
             }
+            On::Points => {}
         }
     }
 }
