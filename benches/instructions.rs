@@ -18,12 +18,17 @@ const TOLERANCE: f64 = 0.02;
 const POINTS: usize = 4000;
 const STEPS: u64 = 20;
 
-const CASES: &[(&str, ShapeFunction, Scheme)] = &[
-    ("column uGIMP MUSL", ShapeFunction::Ugimp, Scheme::Musl),
-    ("column uGIMP USL", ShapeFunction::Ugimp, Scheme::Usl),
-    ("column uGIMP USF", ShapeFunction::Ugimp, Scheme::Usf),
-    ("column B-spline MUSL", ShapeFunction::Bspline, Scheme::Musl),
-    ("column linear MUSL", ShapeFunction::Linear, Scheme::Musl),
+/// What is counted: name and scene.
+type Case = (&'static str, fn() -> Simulation);
+
+const CASES: &[Case] = &[
+    ("column uGIMP MUSL", || scenes::column(POINTS, ShapeFunction::Ugimp, Scheme::Musl)),
+    ("column uGIMP USL", || scenes::column(POINTS, ShapeFunction::Ugimp, Scheme::Usl)),
+    ("column uGIMP USF", || scenes::column(POINTS, ShapeFunction::Ugimp, Scheme::Usf)),
+    ("column B-spline MUSL", || scenes::column(POINTS, ShapeFunction::Bspline, Scheme::Musl)),
+    ("column linear MUSL", || scenes::column(POINTS, ShapeFunction::Linear, Scheme::Musl)),
+    ("sand meets barrier", || scenes::barrier(0.01, false)),
+    ("sand meets implicit barrier", || scenes::barrier(0.02, true)),
 ];
 
 #[derive(Debug, serde::Serialize, serde::Deserialize)]
@@ -40,10 +45,10 @@ fn measured(simulation: &mut Simulation) {
 
 /// In the child process, under callgrind.
 fn count_me(name: &str) {
-    let &(_, shape, scheme) = CASES.iter().find(|c| c.0 == name).expect("a case of the table");
+    let &(_, scene) = CASES.iter().find(|c| c.0 == name).expect("a case of the table");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread pool");
     pool.install(|| {
-        let mut simulation = scenes::column(POINTS, shape, scheme);
+        let mut simulation = scene();
         scenes::run(&mut simulation, 3);
         measured(&mut simulation);
         println!("points {}", simulation.particle_count());
@@ -93,7 +98,7 @@ fn compare(write: bool) -> Result<bool, String> {
         let mut writer = csv::Writer::from_path(table()).map_err(|e| e.to_string())?;
         for row in &rows {
             writer.serialize(row).map_err(|e| e.to_string())?;
-            println!("{:24} {:8.1}", row.case, row.instructions_per_particle_step);
+            println!("{:28} {:8.1}", row.case, row.instructions_per_particle_step);
         }
         writer.flush().map_err(|e| e.to_string())?;
         return Ok(true);
@@ -101,13 +106,13 @@ fn compare(write: bool) -> Result<bool, String> {
     let mut reader = csv::Reader::from_path(table()).map_err(|e| format!("{}: {e}", table().display()))?;
     let committed: Vec<Row> = reader.deserialize().collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     let mut fine = committed.len() == rows.len();
-    println!("{:24} {:>10} {:>10} {:>8}", "instructions per", "committed", "now", "change");
+    println!("{:28} {:>10} {:>10} {:>8}", "instructions per", "committed", "now", "change");
     for (old, new) in committed.iter().zip(&rows) {
         let change = new.instructions_per_particle_step / old.instructions_per_particle_step - 1.0;
         let within = old.case == new.case && change.abs() <= TOLERANCE;
         fine &= within;
         println!(
-            "{:24} {:10.1} {:10.1} {:+7.2} %{}",
+            "{:28} {:10.1} {:10.1} {:+7.2} %{}",
             new.case,
             old.instructions_per_particle_step,
             new.instructions_per_particle_step,

@@ -11,6 +11,8 @@ use checkdam::body::{Body, Particle, Points};
 use checkdam::boundary::nodes::{self, Tally};
 use checkdam::boundary::{Boundary, Friction};
 use checkdam::constitutive::{AnyLaw, Increment, Law, LinearElastic, PointState, Stress};
+use checkdam::contact::node::{self, Side};
+use checkdam::contact::pair::Touch;
 use checkdam::grid::{ActiveGrid, Lattice};
 use checkdam::lanes::floor_to_int;
 use checkdam::layout::{SortRules, Sorter};
@@ -170,5 +172,25 @@ fn contact(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, shapes, transfers, laws, contact);
+/// The exchange between bodies at a node: one pair, and three bodies of which each touches the others.
+fn bodies(c: &mut Criterion) {
+    let side = |mass: f64, v: [f64; 2]| Side { mass, old: v, velocity: v, ..Side::default() };
+    let sides = [side(1e-3, [1.0, -0.2]), side(2e-3, [-0.5, 0.1]), side(5e-3, [0.0, 0.3])];
+    let touch = |a: usize, b: usize, normal: [f64; 2]| Touch::new([a, b], normal, 0.4);
+    let all = [touch(0, 1, [0.8, 0.6]), touch(1, 2, [0.0, 1.0]), touch(0, 2, [0.6, 0.8])];
+    let mut group = c.benchmark_group("contact of bodies");
+    for (name, bodies, touches) in [("two bodies", 2, 1), ("three bodies", 3, 3)] {
+        group.throughput(Throughput::Elements(1));
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                let (mut sides, mut at) = (black_box(sides), black_box(all));
+                node::solve(&mut sides[..bodies], &mut at[..touches]);
+                sides
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, shapes, transfers, laws, contact, bodies);
 criterion_main!(benches);

@@ -65,8 +65,10 @@ fn column(c: &mut Criterion) {
 fn barrier(c: &mut Criterion) {
     let mut group = c.benchmark_group("sand and deformable barrier in contact");
     group.sample_size(10);
-    for (name, spacing) in [("10 mm", 0.01), ("5 mm", 0.005)] {
-        measure(&mut group, name, &scenes::barrier(spacing));
+    for (name, spacing, implicit) in
+        [("10 mm", 0.01, false), ("10 mm, implicit steps", 0.01, true), ("5 mm", 0.005, false)]
+    {
+        measure(&mut group, name, &scenes::barrier(spacing, implicit));
     }
 }
 

@@ -85,8 +85,8 @@ pub fn flume(spacing: f64) -> Simulation {
 }
 
 /// A metre of sand, 0.1 m deep, that has slid down a bed of 60 degrees against an elastic cantilever, 0.6 m by 0.1 m, clamped below
-/// the bed, in frictional contact; 0.1 s after they met.
-pub fn barrier(spacing: f64) -> Simulation {
+/// the bed, in frictional contact; 0.1 s after they met. The cantilever moves in implicit steps where `implicit`.
+pub fn barrier(spacing: f64, implicit: bool) -> Simulation {
     let step = spacing / PER_CELL as f64;
     let volume = step * step * THICKNESS;
     let brick = |corner: [f64; 2], size: [f64; 2], v: [f64; 2]| -> Vec<Particle> {
@@ -100,7 +100,7 @@ pub fn barrier(spacing: f64) -> Simulation {
             })
             .collect()
     };
-    let body = |name: &str, law: AnyLaw, density: f64| Body {
+    let body = |name: &str, law: AnyLaw, density: f64, implicit: bool| Body {
         name: name.into(),
         law,
         point_mass: density * volume,
@@ -109,7 +109,7 @@ pub fn barrier(spacing: f64) -> Simulation {
         point_spacing: step,
         weightless: false,
         between_side_walls: true,
-        implicit: false,
+        implicit,
     };
     let plane =
         |name: &str, normal: [f64; 2], friction| Boundary::plane(name, [0.0; 2].into(), normal.into(), friction);
@@ -120,10 +120,10 @@ pub fn barrier(spacing: f64) -> Simulation {
         domain: [[-3.0, 3.0], [-1.0, 3.0]],
         bodies: vec![
             (
-                body("barrier", AnyLaw::NeoHookean(NeoHookean::new(1e7, 0.2)), 1200.0),
+                body("barrier", AnyLaw::NeoHookean(NeoHookean::new(1e7, 0.2)), 1200.0, implicit),
                 brick([1.0, -0.05], [0.1, 0.65], [0.0; 2]),
             ),
-            (body("sand", AnyLaw::DruckerPrager(sand()), 1680.0), brick([0.0, 0.0], [1.0, 0.1], [3.0, 0.0])),
+            (body("sand", AnyLaw::DruckerPrager(sand()), 1680.0, false), brick([0.0, 0.0], [1.0, 0.1], [3.0, 0.0])),
         ],
         boundaries: vec![
             plane("bed", [0.0, 1.0], Friction::Coulomb(0.4)).only_for(&[1]),
