@@ -103,6 +103,28 @@ pub const FIGURES: &[Figure] = &[
         },
     ),
     curves(
+        "contact",
+        "contact_hertz_pressure",
+        "contact_hertz_pressure_plot",
+        Curves {
+            x: "x_over_half_width",
+            x_title: "distance from the crest over the half width",
+            y_title: "pressure over its peak",
+            curves: &[
+                measured("node_over_peak", "single nodes"),
+                measured("smoothed_over_peak", "means (1, 2, 1)/4"),
+                exact("exact_over_peak", "Westergaard"),
+            ],
+            panels: &[
+                panel("40 cells, half width of 2.5", &[("cells_per_wavelength", "40"), ("load", "first")]),
+                panel("40 cells, half width of 5", &[("cells_per_wavelength", "40"), ("load", "second")]),
+                panel("80 cells, half width of 5", &[("cells_per_wavelength", "80"), ("load", "first")]),
+                panel("80 cells, half width of 10", &[("cells_per_wavelength", "80"), ("load", "second")]),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
         "self_weight",
         "self_weight_profile",
         "self_weight_profile_plot",

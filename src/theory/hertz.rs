@@ -40,9 +40,98 @@ pub fn squeeze(load: f64, radius: f64, cylinder: &Elastic) -> f64 {
     4.0 * load / (PI * modulus) * (libm::log(4.0 * radius / a) - 0.5)
 }
 
+/// An elastic body with a wavy surface on a flat one: a row of Hertzian contacts (Westergaard 1939; Johnson 1985, section 13.2).
+///
+/// Unloaded, the gap is `amplitude` (1 - cos(2 pi x / `wavelength`)). Loads are mean pressures over a wavelength. As the half
+/// width becomes small against the wavelength, each contact becomes that of a cylinder of [`Wavy::radius`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wavy {
+    /// From crest to crest, m.
+    pub wavelength: f64,
+    /// Half of the height from trough to crest, m.
+    pub amplitude: f64,
+    /// Contact modulus E* of [`contact_modulus`], Pa.
+    pub modulus: f64,
+}
+
+impl Wavy {
+    /// Radius of curvature of a crest, m.
+    pub fn radius(&self) -> f64 {
+        let k = 2.0 * PI / self.wavelength;
+        1.0 / (self.amplitude * k * k)
+    }
+
+    /// Mean pressure at which the surfaces touch everywhere, pi E* amplitude / wavelength, Pa.
+    pub fn closing_pressure(&self) -> f64 {
+        PI * self.modulus * self.amplitude / self.wavelength
+    }
+
+    /// Mean pressure that makes a half width (m), Pa.
+    pub fn mean_pressure(&self, half_width: f64) -> f64 {
+        let s = libm::sin(PI * half_width / self.wavelength);
+        self.closing_pressure() * s * s
+    }
+
+    /// Half width of each contact under a mean pressure (Pa) up to the one that closes all gaps, m.
+    pub fn half_width(&self, mean_pressure: f64) -> f64 {
+        libm::asin((mean_pressure / self.closing_pressure()).sqrt()) * self.wavelength / PI
+    }
+
+    /// Pressure at `x` (m) from a crest, at most half a wavelength away, Pa.
+    pub fn pressure(&self, mean_pressure: f64, x: f64) -> f64 {
+        let part = mean_pressure / self.closing_pressure();
+        let angle = PI * x / self.wavelength;
+        let inside = (part - libm::sin(angle) * libm::sin(angle)).max(0.0);
+        2.0 * self.closing_pressure() * libm::cos(angle) * inside.sqrt()
+    }
+
+    /// How much nearer the mean levels of the surfaces come, amplitude b (1 - ln b) with b the mean pressure over the closing one,
+    /// m. Its derivative is the compliance of a row of flat punches, -2/(pi E*) ln sin(pi a/wavelength) per force per length.
+    pub fn approach(&self, mean_pressure: f64) -> f64 {
+        let part = mean_pressure / self.closing_pressure();
+        self.amplitude * part * (1.0 - libm::log(part))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const WAVY: Wavy = Wavy { wavelength: 0.2, amplitude: 1e-3, modulus: 1e6 };
+
+    #[test]
+    fn narrow_contacts_of_a_row_are_those_of_cylinders() {
+        let mean = 1e-6 * WAVY.closing_pressure();
+        let (p, r) = (mean * WAVY.wavelength, WAVY.radius());
+        let a = half_width(p, r, WAVY.modulus);
+        assert!((WAVY.half_width(mean) / a - 1.0).abs() < 1e-5);
+        assert!((WAVY.mean_pressure(a) / mean - 1.0).abs() < 1e-5);
+        for x in [0.0, 0.5 * a, 0.9 * a] {
+            assert!((WAVY.pressure(mean, x) / pressure(p, r, WAVY.modulus, x) - 1.0).abs() < 1e-5);
+        }
+        assert_eq!(WAVY.pressure(mean, 1.01 * a), 0.0);
+    }
+
+    #[test]
+    fn a_row_carries_its_load_and_closes() {
+        let mean = 0.3 * WAVY.closing_pressure();
+        let n = 20_000;
+        let dx = WAVY.wavelength / f64::from(n);
+        let at = |k| (f64::from(k) + 0.5) * dx - 0.5 * WAVY.wavelength;
+        let sum: f64 = (0..n).map(|k| WAVY.pressure(mean, at(k)) * dx).sum();
+        assert!((sum / (mean * WAVY.wavelength) - 1.0).abs() < 1e-5);
+        assert!((WAVY.half_width(WAVY.closing_pressure()) / (0.5 * WAVY.wavelength) - 1.0).abs() < 1e-12);
+        assert!((WAVY.approach(WAVY.closing_pressure()) / WAVY.amplitude - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_approach_of_a_row_grows_by_the_compliance_of_punches() {
+        let mean = 0.1 * WAVY.closing_pressure();
+        let d = 1e-5 * mean;
+        let slope = (WAVY.approach(mean + d) - WAVY.approach(mean - d)) / (2.0 * d * WAVY.wavelength);
+        let sine = libm::sin(PI * WAVY.half_width(mean) / WAVY.wavelength);
+        assert!((slope / (-2.0 / (PI * WAVY.modulus) * libm::log(sine)) - 1.0).abs() < 1e-6);
+    }
 
     const E: Elastic = Elastic { young: 1e6, poisson: 0.3 };
 

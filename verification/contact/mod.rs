@@ -1,5 +1,5 @@
-//! Contact of bodies that have velocity fields of their own: bars that strike each other, a block on an elastic base, sand
-//! against an elastic wall.
+//! Contact of bodies that have velocity fields of their own: bars that strike each other, a block on an elastic base, a row of
+//! Hertzian contacts, sand against an elastic wall.
 //!
 //! What is judged is the way a user gets: normals from the faces of the structure nearest to the other body's points, gaps from
 //! the points' extents. The table shows the others beside it. Gradients take a corner for a face: at the heel and toe of a block
@@ -9,6 +9,7 @@
 mod bars;
 mod block;
 mod deposit;
+mod hertz;
 mod scenes;
 
 use super::report::named_csv;
@@ -19,20 +20,32 @@ use scenes::{GAPS, NORMALS, rule};
 /// The rung.
 pub const RUNG: Rung = Rung {
     name: "contact",
-    title: "Bodies in contact: bars that strike each other, a block on an elastic base, sand against an elastic wall",
+    title: "Bodies in contact: bars that strike each other, a block on an elastic base, Hertz's contact, sand against a wall",
     run,
-    covers: &[(FaultKind::Friction, 1.05), (FaultKind::ContactForce, 1.05), (FaultKind::Gravity, 1.05)],
-    under_fault: "equal bars, and the first block",
+    covers: &[
+        (FaultKind::Friction, 1.05),
+        (FaultKind::ContactForce, 1.05),
+        (FaultKind::Gravity, 1.05),
+        (FaultKind::Modulus, 1.05),
+    ],
+    under_fault: "equal bars, the first block; Hertz's contact on the coarse grid (modulus: it alone; contact force)",
 };
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();
+    if fault.modulus != 1.0 {
+        hertz::run(fault, &mut outcome)?;
+        return Ok(outcome);
+    }
     let mut rows = Vec::new();
     bars::run(fault, &mut outcome, &mut rows)?;
     let header = ["second_bar", "time_over_contact", "force_over_first", "force_exact_over_first"];
     let names = bars::names();
     outcome.tables.push(("contact_bars".into(), named_csv(&header, &[("second_bar", &names)], rows)));
     block::run(fault, &mut outcome)?;
+    if *fault == Fault::NONE || fault.contact_force != 1.0 {
+        hertz::run(fault, &mut outcome)?;
+    }
     if *fault == Fault::NONE {
         deposit::run(fault, &mut outcome)?;
         options(&mut outcome);
@@ -40,7 +53,7 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     Ok(outcome)
 }
 
-/// All ways to find normals and gaps, on the bars, the block and the deposit; NaN where a run breaks down.
+/// All ways to find normals and gaps, on the bars, the block, the deposit and Hertz's contact; NaN where a run breaks down.
 fn options(outcome: &mut Outcome) {
     let setting = block::Setting { tilt: 23f64.to_radians(), slope: 40f64.to_radians(), friction: 0.4, pic: 1.0 };
     let equal = ("", super::scene::Material::new(1e6, 0.0, 1000.0), 1.0);
@@ -64,6 +77,12 @@ fn options(outcome: &mut Outcome) {
                 Some(Ok(d)) => [d.force[0], d.force[1], d.deepest, d.residual],
                 _ => [f64::NAN; 4],
             });
+            // Neither has most of a wavy face.
+            let pressed = (gap != GapRule::Displacements).then(|| hertz::of_option(with(0.0)));
+            row.extend(match pressed {
+                Some(Ok(found)) => found,
+                _ => [f64::NAN; 2],
+            });
             rows.push(row);
         }
     }
@@ -83,6 +102,8 @@ fn options(outcome: &mut Outcome) {
         "deposit_force_peak_n",
         "deposit_penetration_cells",
         "deposit_ledger_residual",
+        "hertz_load_over_exact",
+        "hertz_half_width_over_exact",
     ];
     let (normals, gaps) = (NORMALS.map(|n| n.0), GAPS.map(|g| g.0));
     let codes: [(&str, &[&str]); 2] = [("normal", &normals), ("gap", &gaps)];
