@@ -363,8 +363,8 @@ const ENERGY: Curves = Curves {
     panels: EACH,
     ..Curves::LINEAR
 };
-const STRESS: Shown = Shown { column: "pressure_pa", title: "pressure (Pa)", top: Some(1e4) };
-const SHEAR: Shown = Shown { column: "plastic_shear_strain", title: "plastic shear strain", top: Some(4.0) };
+const STRESS: Shown = Shown { column: "pressure_pa", title: "pressure (Pa)", top: None, logarithmic_from: Some(100.0) };
+const SHEAR: Shown = Shown { column: "plastic_shear_strain", title: "plastic shear strain", top: Some(4.0), logarithmic_from: None };
 
 fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
     let tables = folder.join(FOLDER);
