@@ -13,6 +13,7 @@ pub mod data;
 mod errata;
 pub mod flume;
 pub mod record;
+pub mod watch;
 
 use crate::output::OutputError;
 use crate::plot::PlotError;
@@ -49,7 +50,7 @@ pub struct Context<'a> {
     /// Whether studies are run, instead of read from the record.
     pub studies: bool,
     /// Is told how far it is, in words; it ends early when this answers `false`.
-    pub progress: &'a mut (dyn FnMut(&str) -> bool + Send),
+    pub progress: &'a mut watch::WordsFn<'a>,
 }
 
 /// Why a validation could not be run to its end.

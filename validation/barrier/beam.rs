@@ -5,6 +5,7 @@
 //! is turned by 60 degrees against it, so where the beam begins is known to a part of a cell: a foot that is deeper by d makes the
 //! deflection larger by 4 d/L and the frequency lower by 2 d/L.
 
+use super::records::{LITERAL, height, read_case};
 use crate::case::parse;
 use crate::check::{Check, Kind, Tolerance};
 use crate::plot::PlotError;
@@ -28,8 +29,6 @@ pub const VALIDATION: Validation = Validation {
     covers: &[(FaultKind::Modulus, 1.08)],
 };
 
-/// Height of the face, m.
-const HEIGHT: f64 = 0.6;
 /// Deflection of the tip at rest that the acceleration is chosen for, m.
 const DEFLECTION: f64 = 5e-4;
 /// Cell sizes, m; that of the study, on which faults are looked for, is the last.
@@ -43,8 +42,10 @@ struct Swing {
 }
 
 fn swing(cell: f64, modulus: f64, context: &mut Context) -> Result<Swing, Failure> {
-    let mut case = parse(include_str!("60deg.toml"), "60deg").map_err(|e| Failure::Record(e.to_string()))?.case;
+    let text = read_case(LITERAL).map_err(|e| Failure::Record(e.to_string()))?;
+    let mut case = parse(&text, LITERAL).map_err(|e| Failure::Record(e.to_string()))?.case;
     case.grid.spacing_m = cell;
+    let height = height(&case);
     case.bodies.retain(|b| b.name == "barrier");
     case.boundaries.retain(|b| b.name == "clamp");
     case.contacts.clear();
@@ -55,12 +56,13 @@ fn swing(cell: f64, modulus: f64, context: &mut Context) -> Result<Swing, Failur
     let m = &case.materials["barrier"];
     let elastic = Elastic { young: m.young_pa, poisson: m.poisson };
     let beam =
-        Cantilever { elastic, density: m.density_kg_per_m3, length: HEIGHT, depth, width: case.grid.thickness_m };
+        Cantilever { elastic, density: m.density_kg_per_m3, length: height, depth, width: case.grid.thickness_m };
     let per_acceleration = beam.density * depth * beam.width;
-    let top = HEIGHT - 0.5 * case.particle_spacing_m();
+    let top = height - 0.5 * case.particle_spacing_m();
     let acceleration = DEFLECTION / beam.under_load(per_acceleration, top);
-    // Gravity against the normal of the face, which stands at 60 degrees to the x axis, points into the barrier.
-    (case.gravity.inclination_deg, case.gravity.settle_inclination_deg) = (-30.0, Some(-30.0));
+    // Gravity against the normal of the face, which is turned from the x axis as the barrier is, points into the barrier.
+    let inclination = case.bodies[0].rotation_deg - 90.0;
+    (case.gravity.inclination_deg, case.gravity.settle_inclination_deg) = (inclination, Some(inclination));
     case.gravity.magnitude_m_per_s2 = acceleration;
     if let Some(m) = case.materials.get_mut("barrier") {
         m.young_pa *= modulus;
@@ -73,7 +75,8 @@ fn swing(cell: f64, modulus: f64, context: &mut Context) -> Result<Swing, Failur
         [sum[0] / count, sum[1] / count]
     };
     let start = tip(&simulation);
-    let normal = [libm::cos(60f64.to_radians()), libm::sin(60f64.to_radians())];
+    let angle = case.bodies[0].rotation_deg.to_radians();
+    let normal = [libm::cos(angle), libm::sin(angle)];
     let expected = 2.0 * std::f64::consts::PI / beam.frequency();
     let mut path = vec![(0.0, 0.0)];
     while simulation.time() < 1.1 * expected {

@@ -5,6 +5,7 @@
 //! [`density`] analyse studies of many runs, which [`records`] lists; [`close_up`] looks into four of the barriers; [`claims`] holds
 //! every claim of the paper against all of this.
 
+pub mod balances;
 pub mod beam;
 pub mod claims;
 pub mod close_up;
@@ -19,3 +20,6 @@ use super::data;
 
 /// The file of the paper's numbers for the barrier.
 const PUBLISHED: data::Source = data::SOURCES[1];
+
+/// Angle of the flume in all cases of the barrier, degrees below the horizontal.
+const INCLINATION_DEG: f64 = 60.0;
