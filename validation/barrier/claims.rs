@@ -129,7 +129,7 @@ const CLAIMS: &[Claim] = claims![
     "B38", |r, k| r.close_up[k].held_by_barrier("plastic"), "an elastic barrier dissipates nothing; here the most that it ever holds, kinetic and elastic";
     "B39", |r, k| r.at(k, PLASTIC).run.get("plastic_1"), "28 + 24 + 72 % are 124 %; here all mechanisms add up to the energy at release";
     "B40", |r, k| r.close_up[k].levelling("plastic"), "time from the arrival until nine tenths of what is dissipated after it are";
-    "B41", |r, k| r.close_up[k].pile_up("concrete"), "share of the dissipation after the arrival, behind concrete. Of all dissipation, what is done by plastic work after the arrival within two cells of the slip surface, over four barriers: {slip}; in the flow farther from it: {flow}; in the deposit: {deposit}; by friction on base, barrier and side walls: {friction}";
+    "B41", |r, k| r.close_up[k].pile_up("concrete"), "share of the dissipation after the arrival, behind concrete. Of all dissipation, what is done by plastic work after the arrival within two cells of the slip surface, over four barriers: {slip}; in the flow farther from it: {flow}, of which {until} before half of the deposit rests; in the deposit: {deposit}; by friction on base, barrier and side walls: {friction}";
 ];
 
 /// A number of the shares of dissipation.
@@ -137,7 +137,8 @@ type Of = fn(&Shares) -> f64;
 
 /// A reason with the numbers that it names.
 fn explained(why: &str, results: &Results) -> String {
-    let places: [(&str, Of); 4] = [
+    let places: [(&str, Of); 5] = [
+        ("{until}", |s| s.half[1]),
         ("{deposit}", |s| s.after[0]),
         ("{slip}", |s| s.after[1]),
         ("{flow}", |s| s.after[2]),

@@ -8,6 +8,7 @@
 mod collect;
 mod earth_pressure;
 mod figures;
+mod lines;
 mod numbers;
 mod record;
 mod releases;

@@ -112,6 +112,9 @@ impl Observer {
     }
 
     fn end_interval(&mut self, simulation: &Simulation) {
+        if simulation.time() <= self.began {
+            return;
+        }
         self.cells.clear();
         for p in simulation.points_of(self.sand) {
             let (from, at) = (self.starts[p.id as usize], self.cells.index(p.x));

@@ -27,6 +27,9 @@ pub struct Shares {
     pub before: f64,
     /// After it, parallel to [`PLACES`].
     pub after: [f64; 7],
+    /// When the deposit first has half of the mass that it has at the end, s after the arrival, and the part of the flow's share done
+    /// until then: while there is little that it could slip on.
+    pub half: [f64; 2],
     /// Through time: time (s), and shares since the release by place.
     pub path: Vec<(f64, [f64; 7])>,
     /// Plastic work of the ledger that the sum over the points misses, over that of the ledger at the end, largest.
@@ -44,7 +47,7 @@ impl Shares {
 pub fn shares(slip: &Table, barrier: &str, arrival: f64) -> Result<Shares, Failure> {
     let names: Vec<&str> = COLUMNS.split(',').collect();
     let columns = names[2..12].iter().map(|name| slip.column(name)).collect::<Result<Vec<_>, _>>()?;
-    let time = slip.column("time_s")?;
+    let (time, mass) = (slip.column("time_s")?, slip.column("deposit_kg")?);
     // By row: the places, J, and what the points miss.
     let places = |k: usize| {
         let [deposit, near, above, flow, plastic, base, on_barrier, side, contact, pic] =
@@ -52,7 +55,8 @@ pub fn shares(slip: &Table, barrier: &str, arrival: f64) -> Result<Shares, Failu
         let missed = plastic - (deposit + near + above + flow);
         ([deposit, near + above, flow, base, on_barrier, side, contact + pic + missed], missed, plastic)
     };
-    let rows: Vec<_> = rows_of(slip, barrier)?.into_iter().map(|k| (time[k], places(k))).collect();
+    let own = rows_of(slip, barrier)?;
+    let rows: Vec<_> = own.iter().map(|&k| (time[k], places(k))).collect();
     let end = rows.last().ok_or_else(|| Failure::Record(format!("nothing is on record of {barrier}")))?.1;
     let all: f64 = end.0.iter().sum();
     let path: Vec<_> = rows.iter().map(|(t, p)| (*t, p.0.map(|j| j / all))).collect();
@@ -63,9 +67,12 @@ pub fn shares(slip: &Table, barrier: &str, arrival: f64) -> Result<Shares, Failu
         Failure::Record(format!("the record of {barrier} has no row at the arrival after {arrival} s: {again}"))
     })?;
     let after = std::array::from_fn(|k| end.0[k] / all - at[k]);
+    let whole = own.last().map_or(f64::NAN, |&k| mass[k]);
+    let half = own.iter().position(|&k| mass[k] >= 0.5 * whole).map_or(path[0], |k| path[k]);
+    let half = [half.0 - arrival, half.1[2] - at[2]];
     let missed = rows.iter().map(|(_, p)| p.1.abs() / end.2);
     let missed = missed.fold(0.0, |a: f64, x| if x.is_nan() || a.is_nan() { f64::NAN } else { a.max(x) });
-    Ok(Shares { before: at.iter().sum(), after, path, missed })
+    Ok(Shares { before: at.iter().sum(), after, half, path, missed })
 }
 
 /// The record is right if the sum over the points is what the ledger says.
@@ -80,7 +87,10 @@ pub fn check(release: &str, barrier: &str, shares: &Shares) -> Check {
 
 /// Header of [`table`].
 pub fn header() -> String {
-    format!("release,barrier,before_arrival_1,{},slip_of_plastic_1,missed_1\n", PLACES.join(","))
+    format!(
+        "release,barrier,before_arrival_1,{},slip_of_plastic_1,half_deposit_after_s,flow_until_half_1,missed_1\n",
+        PLACES.join(",")
+    )
 }
 
 /// Where the dissipation after the arrival is done, a line a barrier, as shares of all of the run.
@@ -88,7 +98,7 @@ pub(in super::super) fn table(release: &Release, slip: &Table) -> Result<(String
     let (mut text, mut checks) = (String::new(), Vec::new());
     for (barrier, _) in BARRIERS {
         let s = shares(slip, barrier, arrival(release, barrier)?.time)?;
-        let numbers = [&[s.before], &s.after[..], &[s.slip_of_plastic(), s.missed]].concat();
+        let numbers = [&[s.before], &s.after[..], &[s.slip_of_plastic()], &s.half, &[s.missed]].concat();
         let cells: Vec<String> = numbers.iter().map(|x| significant(*x, 4)).collect();
         text += &format!("{},{barrier},{}\n", release.name, cells.join(","));
         checks.push(check(release.name, barrier, &s));
@@ -137,7 +147,8 @@ mod tests {
     fn run(factor: f64) -> Shares {
         let row = |time: f64, work: [f64; 4], rest: [f64; 6]| {
             let cells = work.map(|w| (w * factor).to_string()).join(",");
-            format!("steel,{time},{cells},{},1\n", rest.map(|x| x.to_string()).join(","))
+            let deposit = 10.0 * time;
+            format!("steel,{time},{cells},{},{deposit}\n", rest.map(|x| x.to_string()).join(","))
         };
         let text = format!("{COLUMNS}\n")
             + &row(0.0, [0.0; 4], [0.0; 6])
@@ -161,6 +172,8 @@ mod tests {
         let expected = [0.05, 0.3, 0.05, 0.2, 0.1, 0.05, 0.05];
         assert!(s.after.iter().zip(expected).all(|(a, b)| close(*a, b)), "{:?}", s.after);
         assert!(close(s.slip_of_plastic(), 0.75) && close(s.missed, 0.0));
+        // Half of the deposit lies at the arrival.
+        assert!(close(s.half[0], 0.500 - 0.499_97) && close(s.half[1], 0.0));
     }
 
     #[test]
