@@ -13,6 +13,7 @@ pub mod data;
 mod errata;
 pub mod flume;
 pub mod record;
+pub mod watch;
 
 use crate::output::OutputError;
 use crate::plot::PlotError;
@@ -49,7 +50,7 @@ pub struct Context<'a> {
     /// Whether studies are run, instead of read from the record.
     pub studies: bool,
     /// Is told how far it is, in words; it ends early when this answers `false`.
-    pub progress: &'a mut (dyn FnMut(&str) -> bool + Send),
+    pub progress: &'a mut watch::WordsFn<'a>,
 }
 
 /// Why a validation could not be run to its end.
@@ -105,6 +106,7 @@ pub const VALIDATIONS: &[Validation] = &[
     barrier::rigidity::VALIDATION,
     barrier::grids::VALIDATION,
     barrier::density::VALIDATION,
+    barrier::weight::VALIDATION,
     barrier::close_up::VALIDATION,
     barrier::claims::VALIDATION,
     column::LEVEL,
@@ -127,6 +129,8 @@ pub const STUDIES: &[(&str, RecordedRows)] = &[
     ("barrier/runs/rigid.csv", || barrier::records::RIGID.record.rows()),
     ("barrier/runs/integration.csv", || barrier::records::INTEGRATION.record.rows()),
     ("barrier/runs/density.csv", || barrier::records::DENSITY.record.rows()),
+    ("barrier/runs/weight.csv", || barrier::records::WEIGHT.record.rows()),
+    ("barrier/runs/scatter_calibrated.csv", || barrier::records::SCATTER_CALIBRATED.record.rows()),
     ("column/runs/columns.csv", column::rows),
 ];
 

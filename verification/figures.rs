@@ -1,7 +1,7 @@
 //! Figures of the ladder: what to draw from which table. They are drawn from the tables' text and from nothing else.
 
 use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel};
+use crate::plot::curves::{self, Curve, Curves, Panel, panel};
 use crate::plot::heat_map::{self, HeatMap};
 use std::path::Path;
 
@@ -33,10 +33,6 @@ const fn measured(column: &'static str, label: &'static str) -> Curve<'static> {
 
 const fn exact(column: &'static str, label: &'static str) -> Curve<'static> {
     Curve { column, label, exact: true }
-}
-
-const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel<'static> {
-    Panel { title, only }
 }
 
 const fn curves(rung: &'static str, table: &'static str, name: &'static str, curves: Curves<'static>) -> Figure {

@@ -199,12 +199,24 @@ impl<'a> Frame<'a> {
 
     /// Draws a series as a line, thinned to first, least, largest and last value of each half pixel, broken at gaps.
     pub(super) fn series(&self, canvas: &Canvas<'_>, x: &[f64], y: &[f64], style: ShapeStyle) -> Result<(), PlotError> {
+        self.dashed_series(canvas, x, y, style, super::style::SOLID)
+    }
+
+    /// The same in dashes, px.
+    pub(super) fn dashed_series(
+        &self,
+        canvas: &Canvas<'_>,
+        x: &[f64],
+        y: &[f64],
+        style: ShapeStyle,
+        pattern: &[f64],
+    ) -> Result<(), PlotError> {
         let spots: Vec<Option<Spot>> =
             x.iter().zip(y).map(|(x, y)| (x.is_finite() && y.is_finite()).then(|| self.spot(*x, *y))).collect();
         for part in spots.split(Option::is_none) {
             let part: Vec<Spot> = part.iter().flatten().copied().collect();
             if part.len() > 1 {
-                super::style::stroke(canvas, thin(&part), style)?;
+                super::style::dashed(canvas, &thin(&part), style, pattern)?;
             }
         }
         Ok(())

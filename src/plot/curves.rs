@@ -7,17 +7,15 @@ use plotters::style::text_anchor::HPos;
 
 use super::PlotError;
 use super::axes::{Axis, Frame, Margins};
+use super::legend::{Key, LEGEND_ROW_PX, flow, legend};
 use super::style::{
-    BLUE, Canvas, GREEN, GREY, INK, ORANGE, PURPLE, SKY, SMALL_PX, TEXT_PX, UNIT, VERMILION, WIDTH_PX, drawing,
-    lighten, line, render, stroke, text_width_px, units, write_at,
+    Canvas, GREY, INK, SMALL_PX, SOLID, TEXT_PX, UNIT, WIDTH_PX, dashed, drawing, lighten, line, render, stroke,
+    text_width_px, units, write_at,
 };
 use crate::output::Table;
 
-/// Colours of the curves, in turn.
-const COLOURS: [RGBColor; 6] = [BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY];
 /// More points than this are drawn without markers.
 const MARKED: usize = 40;
-const LEGEND_ROW_PX: f64 = 19.0;
 /// Room to the right of a panel.
 const RIGHT_PX: f64 = 22.0;
 /// Least distance between the names of ticks.
@@ -30,7 +28,8 @@ pub struct Curve<'a> {
     pub column: &'a str,
     /// What to call it; may be empty where the split says enough.
     pub label: &'a str,
-    /// Whether it is what should come out (thin, grey, no markers) rather than what did.
+    /// Whether it is what should come out (thin, grey, no markers; dashed differently where there are more than two) rather than
+    /// what did.
     pub exact: bool,
 }
 
@@ -41,6 +40,11 @@ pub struct Panel<'a> {
     pub title: &'a str,
     /// Columns and the text that a row must have there.
     pub only: &'a [(&'a str, &'a str)],
+}
+
+/// The rows that have these texts in these columns, below a title.
+pub const fn panel<'a>(title: &'a str, only: &'a [(&'a str, &'a str)]) -> Panel<'a> {
+    Panel { title, only }
 }
 
 /// What to draw from a table.
@@ -97,7 +101,7 @@ pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> 
     let whole = [Panel { title: "", only: &[] }];
     let panels = if what.panels.is_empty() { &whole[..] } else { what.panels };
     let drawn = panels.iter().map(|panel| select(&table, what, panel)).collect::<Result<Vec<_>, _>>()?;
-    let legend = legend(drawn.iter().flatten());
+    let legend = legend(drawn.iter().flatten().map(|d| (d.label.as_str(), d.exact)));
     let places = flow(&legend);
     let rows = places.last().map_or(0, |p| p.1 + 1);
 
@@ -118,10 +122,10 @@ pub fn draw(csv: impl AsRef<Path>, what: &Curves, out_svg: impl AsRef<Path>) -> 
             let last = k + columns >= panels.len();
             draw_panel(canvas, &area, what, panel, curves, &legend, [column == 0, last])?;
         }
-        for ((label, style), (x, row)) in legend.iter().zip(&places) {
+        for (key, (x, row)) in legend.iter().zip(&places) {
             let at = (units(*x), units(height + LEGEND_ROW_PX * (*row as f64 + 0.5)));
-            stroke(canvas, vec![at, (at.0 + units(20.0), at.1)], *style)?;
-            write_at(canvas, label, (at.0 + units(26.0), at.1), SMALL_PX, INK, HPos::Left)?;
+            dashed(canvas, &[at, (at.0 + units(key.sample_px()), at.1)], key.style, key.dashes)?;
+            write_at(canvas, &key.label, (at.0 + units(key.sample_px() + 6.0), at.1), SMALL_PX, INK, HPos::Left)?;
         }
         Ok(())
     })
@@ -134,7 +138,7 @@ fn draw_panel(
     what: &Curves,
     panel: &Panel,
     curves: &[Drawn],
-    legend: &[(String, ShapeStyle)],
+    legend: &[Key],
     titled: [bool; 2],
 ) -> Result<(), PlotError> {
     let top = if panel.title.is_empty() { 16.0 } else { 32.0 };
@@ -148,9 +152,10 @@ fn draw_panel(
     write_at(canvas, panel.title, ((left + right) / 2, upper - units(14.0)), TEXT_PX, INK, HPos::Center)?;
     guides(canvas, &frame, what.orders, &x, curves, [upper, lower])?;
     for d in curves {
-        let style = legend.iter().find(|l| l.0 == d.label).map_or_else(|| line(INK, 1.0), |l| l.1);
+        let found = legend.iter().find(|key| key.label == d.label);
+        let (style, pattern) = found.map_or_else(|| (line(INK, 1.0), SOLID), |key| (key.style, key.dashes));
         let (xs, ys): (Vec<f64>, Vec<f64>) = d.points.iter().copied().unzip();
-        frame.series(canvas, &xs, &ys, style)?;
+        frame.dashed_series(canvas, &xs, &ys, style, pattern)?;
         if !d.exact && d.points.len() <= MARKED {
             let marker = ShapeStyle { filled: true, stroke_width: 0, ..style };
             for &(px, py) in d.points.iter().filter(|p| p.0.is_finite()) {
@@ -222,41 +227,6 @@ fn guides(
         write_at(canvas, &format!("order {order}"), at, SMALL_PX, lighten(GREY, 0.3), HPos::Right)?;
     }
     Ok(())
-}
-
-/// Labels in the order in which they appear, each with its line.
-fn legend<'a>(curves: impl Iterator<Item = &'a Drawn>) -> Vec<(String, ShapeStyle)> {
-    let mut seen: Vec<(String, ShapeStyle)> = Vec::new();
-    let (mut measured, mut exact) = (0, 0);
-    for d in curves {
-        if seen.iter().any(|s| s.0 == d.label) {
-            continue;
-        }
-        let style = if d.exact {
-            exact += 1;
-            line(lighten(GREY, 1.0 - 0.55f64.powi(exact - 1)), 1.4)
-        } else {
-            measured += 1;
-            line(COLOURS[(measured - 1) % COLOURS.len()], 1.8)
-        };
-        seen.push((d.label.clone(), style));
-    }
-    seen
-}
-
-/// Where the entries of the legend begin (px), and in which of its rows.
-fn flow(legend: &[(String, ShapeStyle)]) -> Vec<(f64, usize)> {
-    let (mut x, mut row) = (20.0, 0);
-    let mut places = Vec::new();
-    for (label, _) in legend {
-        let wide = 26.0 + text_width_px(label, SMALL_PX) + 18.0;
-        if x > 20.0 && x + wide > f64::from(WIDTH_PX) {
-            (x, row) = (20.0, row + 1);
-        }
-        places.push((x, row));
-        x += wide;
-    }
-    places
 }
 
 /// The curves of a panel, split and transformed.

@@ -26,11 +26,38 @@ pub struct Shown<'a> {
     pub title: &'a str,
     /// Value of the last colour; values beyond it have that colour, too. The largest value if none is given.
     pub top: Option<f64>,
+    /// Colours by the logarithm, from the decade below this positive value on; what is less has the first colour.
+    pub logarithmic_from: Option<f64>,
 }
 
 impl Shown<'static> {
     /// The speed.
-    pub const SPEED: Self = Self { column: "speed_m_per_s", title: "speed (m/s)", top: None };
+    pub const SPEED: Self = Self { column: "speed_m_per_s", title: "speed (m/s)", top: None, logarithmic_from: None };
+}
+
+impl Shown<'_> {
+    /// The scale of the colours, of values or of their decimal logarithms, for values up to `most`.
+    fn scale(&self, most: f64) -> Axis {
+        let most = if most > 0.0 { most } else { 1.0 };
+        match self.logarithmic_from {
+            Some(least) => {
+                // Named at the decades, ending at one, two or five of the last of them.
+                let mut scale = Axis::decades(least.log10(), most.log10());
+                let end = [2.0, 5.0].map(|f: f64| scale.hi - 1.0 + f.log10());
+                scale.hi = end.into_iter().find(|end| *end >= most.log10()).unwrap_or(scale.hi);
+                scale.ticks.retain(|tick| *tick <= scale.hi);
+                scale
+            }
+            None => Axis::round(0.0, most, 5),
+        }
+    }
+
+    /// Which of the colours a value has.
+    fn level(&self, scale: &Axis, value: f64) -> usize {
+        let value = if self.logarithmic_from.is_some() { value.log10() } else { value };
+        // What is not a number, as the logarithm of less than nothing, is below all colours.
+        (((value - scale.lo) / (scale.hi - scale.lo) * LEVELS as f64).max(0.0) as usize).min(LEVELS - 1)
+    }
 }
 
 /// A run of cells of a row that share a colour, in cell numbers: first to last of `row`.
@@ -104,7 +131,7 @@ pub fn draw_with_barrier(
     // Cells are counted from the centre of one of them.
     let base = [x[cells[0]], y[cells[0]]];
     let most = shown.top.unwrap_or_else(|| cells.iter().fold(0.0, |most: f64, k| most.max(value[*k])));
-    let scale = Axis::round(0.0, if most > 0.0 { most } else { 1.0 }, 5);
+    let scale = shown.scale(most);
     let layout = Layout::new(panels.len(), &extent);
     // Each cell reaches a little under the next, so that no background shows through the seams.
     let lap = 0.7 / (layout.px_per_m * cell);
@@ -116,8 +143,7 @@ pub fn draw_with_barrier(
             let spot = |point: Point| layout.spot(origin, &extent, turn.apply(point));
             let cells = rows.iter().map(|k| {
                 let count = |v: f64, from: f64| ((v - from) / cell).round() as i64;
-                let level = (value[*k] / scale.hi * LEVELS as f64).max(0.0) as usize;
-                (count(y[*k], base[1]), count(x[*k], base[0]), level.min(LEVELS - 1))
+                (count(y[*k], base[1]), count(x[*k], base[0]), shown.level(&scale, value[*k]))
             });
             for run in runs(cells.collect()) {
                 let quad = run.corners(lap).map(|[i, j]| spot([base[0] + i * cell, base[1] + j * cell]));
@@ -225,9 +251,26 @@ fn foot(canvas: &Canvas<'_>, layout: &Layout, title: &str, scale: &Axis) -> Resu
         fill(canvas, vec![(x, from), (end, from), (end, to), (x, to)], &colour(level))?;
     }
     for tick in &scale.ticks {
-        let x = units(left + width * tick / scale.hi);
+        let x = units(left + width * (tick - scale.lo) / (scale.hi - scale.lo));
         stroke(canvas, vec![(x, to), (x, to + units(4.0))], line(INK, 1.0))?;
         write_at(canvas, &scale.label(*tick), (x, to + units(14.0)), SMALL_PX, INK, HPos::Center)?;
     }
     write_at(canvas, title, (units(left), units(top + 13.0)), SMALL_PX, INK, HPos::Left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_value_is_beyond_a_logarithmic_scale() {
+        let shown = Shown { logarithmic_from: Some(100.0), ..Shown::SPEED };
+        for (most, end) in [(900.0, 1e3), (1.3e5, 2e5), (3e5, 5e5), (1e6, 1e6)] {
+            let scale = shown.scale(most);
+            assert!((scale.lo - 2.0).abs() < 1e-12 && (scale.hi - f64::log10(end)).abs() < 1e-12, "{most}");
+            assert!(scale.ticks.iter().all(|t| *t <= scale.hi));
+            assert_eq!([0.0, -5.0, 100.0].map(|v| shown.level(&scale, v)), [0; 3]);
+            assert_eq!(shown.level(&scale, 1.001 * end), LEVELS - 1);
+        }
+    }
 }

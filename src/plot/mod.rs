@@ -10,6 +10,7 @@ pub mod flow_snapshots;
 pub mod force_time;
 pub mod heat_map;
 mod labels;
+mod legend;
 mod panels;
 pub mod pressure_profile;
 mod style;

@@ -128,6 +128,50 @@ pub(super) fn dashes(canvas: &Canvas<'_>, from: Spot, to: i32, colour: RGBColor,
     Ok(())
 }
 
+/// No dashes.
+pub(super) const SOLID: &[f64] = &[];
+
+/// Draws a line through spots in dashes: lengths of strokes and gaps in turn, px. The pattern runs on around corners.
+pub(super) fn dashed(canvas: &Canvas<'_>, spots: &[Spot], style: ShapeStyle, pattern: &[f64]) -> Result<(), PlotError> {
+    if pattern.is_empty() {
+        return stroke(canvas, spots.to_vec(), style);
+    }
+    strokes(spots, pattern).into_iter().try_for_each(|part| stroke(canvas, part, style))
+}
+
+/// The strokes of a dashed line.
+fn strokes(spots: &[Spot], pattern: &[f64]) -> Vec<Vec<Spot>> {
+    let (mut k, mut left) = (0, pattern[0] * f64::from(UNIT));
+    let mut parts: Vec<Vec<Spot>> = Vec::new();
+    let mut part: Vec<Spot> = spots.first().copied().into_iter().collect();
+    for pair in spots.windows(2) {
+        let (dx, dy) = (f64::from(pair[1].0 - pair[0].0), f64::from(pair[1].1 - pair[0].1));
+        let length = dx.hypot(dy);
+        let mut at = 0.0;
+        while length - at > left {
+            at += left;
+            let share = at / length;
+            let spot = (pair[0].0 + (share * dx).round() as i32, pair[0].1 + (share * dy).round() as i32);
+            if k % 2 == 0 {
+                part.push(spot);
+                parts.push(std::mem::take(&mut part));
+            } else {
+                part = vec![spot];
+            }
+            k = (k + 1) % pattern.len();
+            left = pattern[k] * f64::from(UNIT);
+        }
+        left -= length - at;
+        if k % 2 == 0 {
+            part.push(pair[1]);
+        }
+    }
+    if part.len() > 1 {
+        parts.push(part);
+    }
+    parts
+}
+
 /// Anchors of the viridis colour map, evenly spaced: dark is low, and lightness rises steadily.
 const VIRIDIS: [[f64; 3]; 9] = [
     [68.0, 1.0, 84.0],
@@ -153,4 +197,24 @@ pub(super) fn viridis(share: f64) -> RGBColor {
 pub(super) fn lighten(colour: RGBColor, share: f64) -> RGBColor {
     let mix = |c: u8| (f64::from(c) + (255.0 - f64::from(c)) * share).round() as u8;
     RGBColor(mix(colour.0), mix(colour.1), mix(colour.2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_run_on_around_corners() {
+        let corner = [(0, 0), (10 * UNIT, 0), (10 * UNIT, 10 * UNIT)];
+        let parts = strokes(&corner, &[6.0, 2.0]);
+        let u = UNIT;
+        assert_eq!(
+            parts,
+            [
+                vec![(0, 0), (6 * u, 0)],
+                vec![(8 * u, 0), (10 * u, 0), (10 * u, 4 * u)],
+                vec![(10 * u, 6 * u), (10 * u, 10 * u)]
+            ]
+        );
+    }
 }

@@ -334,6 +334,7 @@ impl Experiment {
             }
             self.simulation.step()?;
             self.read_step();
+            recorder.step(&self.simulation)?;
             if self.simulation.time() >= (samples + 1) as f64 * interval {
                 samples = (self.simulation.time() / interval) as u64;
                 let row = self.sample(recorder)?;

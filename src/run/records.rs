@@ -209,6 +209,10 @@ pub trait Recorder {
     fn field(&mut self, _time: f64, _cells: &[FieldCell]) -> Result<(), OutputError> {
         Ok(())
     }
+    /// Called after every step after release.
+    fn step(&mut self, _simulation: &Simulation) -> Result<(), OutputError> {
+        Ok(())
+    }
     /// A frame of all material points.
     fn frame(&mut self, _simulation: &Simulation) -> Result<(), OutputError> {
         Ok(())

@@ -6,6 +6,7 @@
 //! deflection larger by 4 d/L and the period longer by 2 d/L. A row of nodes is off by up to half a cell; along the clamp the rows
 //! take turns, and a quarter of a cell is allowed for what is left. Moved grids show it.
 
+use super::records::{LITERAL, height, read_case};
 use crate::case::parse;
 use crate::check::{Check, Kind, Tolerance};
 use crate::plot::PlotError;
@@ -29,8 +30,6 @@ pub const VALIDATION: Validation = Validation {
     covers: &[(FaultKind::Modulus, 1.04)],
 };
 
-/// Height of the face, m.
-const HEIGHT: f64 = 0.6;
 /// Deflection of the tip at rest that the acceleration is chosen for, m.
 const DEFLECTION: f64 = 5e-4;
 /// Cell sizes, m; that of the study, on which faults are looked for, is the last.
@@ -45,12 +44,16 @@ struct Swing {
     deflection: f64,
     period: f64,
     path: Vec<(f64, f64)>,
+    /// Height of the face, m.
+    height: f64,
 }
 
 fn swing(cell: f64, offset: [f64; 2], modulus: f64, context: &mut Context) -> Result<Swing, Failure> {
-    let mut case = parse(include_str!("60deg.toml"), "60deg").map_err(|e| Failure::Record(e.to_string()))?.case;
+    let text = read_case(LITERAL).map_err(|e| Failure::Record(e.to_string()))?;
+    let mut case = parse(&text, LITERAL).map_err(|e| Failure::Record(e.to_string()))?.case;
     case.grid.spacing_m = cell;
     case.grid.origin_m = offset.map(|o| o * cell);
+    let height = height(&case);
     case.bodies.retain(|b| b.name == "barrier");
     case.boundaries.retain(|b| b.name == "clamp");
     case.contacts.clear();
@@ -61,12 +64,13 @@ fn swing(cell: f64, offset: [f64; 2], modulus: f64, context: &mut Context) -> Re
     let m = &case.materials["barrier"];
     let elastic = Elastic { young: m.young_pa, poisson: m.poisson };
     let beam =
-        Cantilever { elastic, density: m.density_kg_per_m3, length: HEIGHT, depth, width: case.grid.thickness_m };
+        Cantilever { elastic, density: m.density_kg_per_m3, length: height, depth, width: case.grid.thickness_m };
     let per_acceleration = beam.density * depth * beam.width;
-    let top = HEIGHT - 0.5 * case.particle_spacing_m();
+    let top = height - 0.5 * case.particle_spacing_m();
     let acceleration = DEFLECTION / beam.under_load(per_acceleration, top);
-    // Gravity against the normal of the face, which stands at 60 degrees to the x axis, points into the barrier.
-    (case.gravity.inclination_deg, case.gravity.settle_inclination_deg) = (-30.0, Some(-30.0));
+    // Gravity against the normal of the face, which is turned from the x axis as the barrier is, points into the barrier.
+    let inclination = case.bodies[0].rotation_deg - 90.0;
+    (case.gravity.inclination_deg, case.gravity.settle_inclination_deg) = (inclination, Some(inclination));
     case.gravity.magnitude_m_per_s2 = acceleration;
     if let Some(m) = case.materials.get_mut("barrier") {
         m.young_pa *= modulus;
@@ -79,7 +83,8 @@ fn swing(cell: f64, offset: [f64; 2], modulus: f64, context: &mut Context) -> Re
         [sum[0] / count, sum[1] / count]
     };
     let start = tip(&simulation);
-    let normal = [libm::cos(60f64.to_radians()), libm::sin(60f64.to_radians())];
+    let angle = case.bodies[0].rotation_deg.to_radians();
+    let normal = [libm::cos(angle), libm::sin(angle)];
     let expected = 2.0 * std::f64::consts::PI / beam.frequency();
     let mut path = vec![(0.0, 0.0)];
     while simulation.time() < 1.1 * expected {
@@ -93,7 +98,7 @@ fn swing(cell: f64, offset: [f64; 2], modulus: f64, context: &mut Context) -> Re
         }
     }
     let (period, mean) = first_period(&path, expected);
-    Ok(Swing { deflection: mean / DEFLECTION, period: period / expected, path })
+    Ok(Swing { deflection: mean / DEFLECTION, period: period / expected, path, height })
 }
 
 /// Period from the lowest point after half of the expected one, by a parabola through the samples within a tenth of a period of it, and
@@ -120,10 +125,11 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let mut table = String::from("cell_m,origin_x_cells,origin_y_cells,deflection_over_beam_1,period_over_beam_1\n");
     let mut path = String::from("cell_m,time_s,deflection_over_rest_1\n");
     let ([coarse, fine], modulus) = (CELLS, context.fault.modulus);
-    let mut moved = Vec::new();
+    let (mut moved, mut height) = (Vec::new(), f64::NAN);
     let grids = OFFSETS.map(|o| (coarse, o)).into_iter().chain([(fine, [0.0; 2])]);
     for (cell, offset) in grids.filter(|g| modulus == 1.0 || g.0 == fine) {
         let s = swing(cell, offset, modulus, context)?;
+        height = s.height;
         let [x, y] = offset;
         table += &format!("{cell},{x},{y},{},{}\n", number(s.deflection), number(s.period));
         if offset == [0.0; 2] {
@@ -135,14 +141,14 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             moved.push([s.deflection, s.period]);
             continue;
         }
-        let share = FOOT * cell / HEIGHT;
+        let share = FOOT * cell / height;
         outcome.checks.push(check("cells of 10 mm: deflection at rest", s.deflection, 4.0 * share, cell));
         outcome.checks.push(check("cells of 10 mm: first period", s.period, 2.0 * share, cell));
     }
     if !moved.is_empty() {
         let count = moved.len() as f64;
         let mean = |k: usize| moved.iter().map(|m| m[k]).sum::<f64>() / count;
-        let share = FOOT * coarse / HEIGHT / count.sqrt();
+        let share = FOOT * coarse / height / count.sqrt();
         let names = [
             "cells of 20 mm, mean of five grids: deflection at rest",
             "cells of 20 mm, mean of five grids: first period",

@@ -4,10 +4,13 @@
 //! rounding may make of a force; 3 % for shares of the energy. Where neither release has such a number, the claim is not met. The
 //! reason for a disagreement stands beside it. Left out are what the paper says twice, and what is seen in its figures only.
 
-use super::close_up;
+use super::close_up::slip::shares::Shares;
+use super::close_up::{self, BARRIERS};
 use super::density::{self, Range};
-use super::rigidity::{self, Analysis, LITERAL, Point, crossing, front};
+use super::records::{LITERAL, RIGIDITY, height, impact_coefficient};
+use super::rigidity::{self, Analysis, Point, crossing, front};
 use super::{PUBLISHED, data};
+use crate::case::Case;
 use crate::check::{Check, Kind};
 use crate::plot::PlotError;
 use crate::validation::{Context, Failure, Validation};
@@ -33,7 +36,10 @@ const ALLOWED_ENERGY: f64 = 0.03;
 struct Results {
     analysis: Analysis,
     densities: Vec<Range>,
-    close_up: close_up::Numbers,
+    /// Literal, calibrated.
+    close_up: Vec<close_up::Numbers>,
+    /// A case of the study, for what all have in common.
+    case: Case,
 }
 
 impl Results {
@@ -50,20 +56,27 @@ impl Results {
 
     /// Stiffness at which the impact coefficient reaches a value.
     fn threshold(&self, release: usize, level: f64) -> f64 {
-        let Ok(case) = super::records::RIGIDITY.first_case() else { return f64::NAN };
-        let alpha = |p: &Point| {
-            let [window, _] = front(&p.run);
-            super::records::impact_coefficient(&case, p.peaks.mean, window[0], window[1])
-        };
-        let curve: Vec<_> = self.points(release).iter().map(|p| (p.stiffness, alpha(p))).collect();
+        let curve: Vec<_> = self.points(release).iter().map(|p| (p.stiffness, self.alpha(p))).collect();
         crossing(&curve, level)
     }
 
-    fn alpha(&self, release: usize, stiffness: f64) -> f64 {
-        let Ok(case) = super::records::RIGIDITY.first_case() else { return f64::NAN };
-        let p = self.at(release, stiffness);
+    fn alpha(&self, p: &Point) -> f64 {
         let [window, _] = front(&p.run);
-        super::records::impact_coefficient(&case, p.peaks.mean, window[0], window[1])
+        impact_coefficient(&self.case, p.peaks.mean, window[0], window[1])
+    }
+
+    fn over_height(&self, release: usize, stiffness: f64, quantity: &str) -> f64 {
+        self.at(release, stiffness).run.get(quantity) / height(&self.case)
+    }
+
+    /// Where dissipation is done, literally and calibrated, in the words of a claim: lowest and highest of the four barriers, in percent.
+    fn places(&self, of: Of) -> String {
+        let range = |numbers: &close_up::Numbers| {
+            let shares = BARRIERS.iter().filter_map(|(barrier, _)| numbers.slip(barrier)).map(|s| 100.0 * of(s));
+            let (low, high) = shares.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), x| (a.min(x), b.max(x)));
+            format!("{low:.0} to {high:.0} %")
+        };
+        self.close_up.iter().map(range).collect::<Vec<_>>().join(" literally and ") + " calibrated"
     }
 }
 
@@ -75,10 +88,6 @@ const CONCRETE: f64 = 1.0;
 /// Barrier's velocity over that of the front, as the paper reads it: at 0.7 m.
 fn velocity_share(p: &Point) -> f64 {
     p.run.get("peak_barrier_velocity_m_per_s") / p.run.get("front_velocity_m_per_s")
-}
-
-fn over_height(p: &Point, quantity: &str) -> f64 {
-    p.run.get(quantity) / 0.6
 }
 
 /// A published number, ours from the results of a release, and why they differ, if they do.
@@ -97,12 +106,12 @@ const CLAIMS: &[Claim] = claims![
         "a frictional block released at once arrives before the paper's flow, and sand pushed from behind still earlier: its release is slower than a gate that vanishes";
     "B2", |r, k| r.at(k, CONCRETE).run.get("peak_20ms_time_s"), "as the arrival; released slowly, the load grows until most of the sand has come";
     "B4", |r, k| r.at(k, PLASTIC).run.get("front_velocity_m_per_s"), "as the arrival: the paper's velocity is that of a frictional block at 0.7 m";
-    "B12", |r, k| if k == 0 { r.alpha(k, PLASTIC) } else { f64::NAN }, "the coefficient depends on where velocity and depth of the front are read, which the paper does not say; here at 0.7 m, where the calibrated flow is too thin for its depth to be resolved";
+    "B12", |r, k| if k == 0 { r.alpha(r.at(k, PLASTIC)) } else { f64::NAN }, "the coefficient depends on where velocity and depth of the front are read, which the paper does not say; here at 0.7 m, where the calibrated flow is too thin for its depth to be resolved";
     "B13", |r, k| r.threshold(k, 2.5), "read as the crossing of 2.5, as 2.0 is never crossed in the paper's own numbers; no barrier here comes down to it";
-    "B14", |r, k| rigidity::plateau(r.points(k), r.analysis.typical), "stiffness from which the force cannot be told from that at 1";
+    "B14", |r, k| rigidity::plateau(r.points(k), r.analysis.typical[k]), "stiffness from which the force cannot be told from that at 1";
     "B15", |r, k| rigidity::negligible(r.points(k)), "stiffness from which the tip never moves by 3 % of the height";
-    "B16", |r, k| over_height(r.at(k, PLASTIC), "tip_final_m"), "what is left of the load at rest is held by friction, and grows with the flow's speed; the barrier leans until sand bears on its foot";
-    "B17", |r, k| over_height(r.at(k, CONCRETE), "tip_final_m"), "";
+    "B16", |r, k| r.over_height(k, PLASTIC, "tip_final_m"), "what is left of the load at rest is held by friction, and grows with the flow's speed; the barrier leans until sand bears on its foot";
+    "B17", |r, k| r.over_height(k, CONCRETE, "tip_final_m"), "";
     "B18", |r, k| r.at(k, STEEL).peaks.mean / r.at(k, PLASTIC).peaks.mean, "a fast, thick flow tells the barriers apart more than a slow one";
     "B19", |r, k| 1.0 - r.at(k, PLASTIC).over_rigid.mean, "what a soft barrier spares depends on the release and on its mass, which the paper does not give (`barrier_claims_density`)";
     "B20", |r, k| r.at(k, PLASTIC).run.get("peak_barrier_velocity_m_per_s"), "the fastest point of the face at the largest sample of 1 ms, not a mean; a slow flow moves the barrier less";
@@ -110,23 +119,40 @@ const CLAIMS: &[Claim] = claims![
     "B22", |r, k| velocity_share(r.at(k, FIBRE_GLASS)), "as the velocity";
     "B23", |r, k| velocity_share(r.at(k, STEEL)), "single points ripple; the deflection is what the eye sees";
     "B24", |r, k| velocity_share(r.at(k, CONCRETE)), "";
-    "B26", |r, k| over_height(r.at(k, PLASTIC), "peak_deflection_m"), "it grows from sample to sample, and the paper's is read up to an archive interval later";
-    "B28", |r, k| if k == 0 { r.close_up.celerity("steel") } else { f64::NAN }, "frames of 20 ms cannot show it: here every 2 ms; none where pressures do not rise in order of distance";
-    "B29", |r, k| if k == 0 { r.close_up.celerity("plastic") } else { f64::NAN }, "frames of 20 ms cannot show it: here every 2 ms; none where pressures do not rise in order of distance";
-    "B34", |r, k| if k == 0 { r.close_up.fastest("concrete") } else { f64::NAN }, "as the arrival";
-    "B35", |r, k| if k == 0 { r.close_up.at_rest("concrete") } else { f64::NAN }, "as the arrival";
+    "B26", |r, k| r.over_height(k, PLASTIC, "peak_deflection_m"), "it grows from sample to sample, and the paper's is read up to an archive interval later";
+    "B28", |r, k| r.close_up[k].celerity("steel"), "frames of 20 ms cannot show it: here every 2 ms; none where pressures do not rise in order of distance";
+    "B29", |r, k| r.close_up[k].celerity("plastic"), "frames of 20 ms cannot show it: here every 2 ms; none where pressures do not rise in order of distance";
+    "B34", |r, k| r.close_up[k].fastest("concrete"), "as the arrival";
+    "B35", |r, k| r.close_up[k].at_rest("concrete"), "as the arrival";
     "B36", |r, k| r.at(k, CONCRETE).run.get("dissipated_1"), "no deposit behind a vertical wall keeps more than a third of the energy; the paper's balance does not close";
     "B37", |r, k| 1.0 - r.at(k, PLASTIC).run.get("dissipated_1"), "";
-    "B38", |r, k| if k == 0 { r.close_up.held_by_barrier("plastic") } else { f64::NAN }, "an elastic barrier dissipates nothing; here the most that it ever holds, kinetic and elastic";
+    "B38", |r, k| r.close_up[k].held_by_barrier("plastic"), "an elastic barrier dissipates nothing; here the most that it ever holds, kinetic and elastic";
     "B39", |r, k| r.at(k, PLASTIC).run.get("plastic_1"), "28 + 24 + 72 % are 124 %; here all mechanisms add up to the energy at release";
-    "B40", |r, k| if k == 0 { r.close_up.levelling("plastic") } else { f64::NAN }, "time from the arrival until nine tenths of what is dissipated after it are";
-    "B41", |r, k| if k == 0 { r.close_up.pile_up("concrete") } else { f64::NAN }, "share of the dissipation after the arrival; before it, the base alone takes a fifth of the energy";
+    "B40", |r, k| r.close_up[k].levelling("plastic"), "time from the arrival until nine tenths of what is dissipated after it are";
+    "B41", |r, k| r.close_up[k].pile_up("concrete"), "share of the dissipation after the arrival, behind concrete. Of all dissipation, what is done by plastic work after the arrival within two cells of the slip surface, over four barriers: {slip}; in the flow farther from it: {flow}, of which {until} before half of the deposit rests; in the deposit: {deposit}; by friction on base, barrier and side walls: {friction}";
 ];
+
+/// A number of the shares of dissipation.
+type Of = fn(&Shares) -> f64;
+
+/// A reason with the numbers that it names.
+fn explained(why: &str, results: &Results) -> String {
+    let places: [(&str, Of); 5] = [
+        ("{until}", |s| s.half[1]),
+        ("{deposit}", |s| s.after[0]),
+        ("{slip}", |s| s.after[1]),
+        ("{flow}", |s| s.after[2]),
+        ("{friction}", |s| s.after[3..6].iter().sum()),
+    ];
+    let named = places.into_iter().filter(|(name, _)| why.contains(name));
+    named.fold(why.to_string(), |text, (name, of)| text.replace(name, &results.places(of)))
+}
 
 fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let analysis = rigidity::analyse(context)?;
     let (_, densities) = density::analyse(context)?;
-    let results = Results { analysis, densities, close_up: close_up::numbers(context)? };
+    let (close_up, case) = (close_up::numbers(context)?, RIGIDITY.first_case()?);
+    let results = Results { analysis, densities, close_up, case };
     debug_assert_eq!(results.analysis.releases[0].0, LITERAL);
     let mut text = String::from(
         "id,claim,case,where,published,uncertainty,unit,literal,calibrated,literal_agrees,calibrated_agrees,why\n",
@@ -147,7 +173,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             true => "yes",
             false => "no",
         });
-        let why = if verdict.contains(&"no") { claim.why } else { "" };
+        let why = if verdict.contains(&"no") { explained(claim.why, &results) } else { String::new() };
         let shown = ours.map(|x| if x.is_finite() { crate::check::significant(x, 3) } else { String::new() });
         text += &format!(
             "{},{},{},{},{},{},{},{},{},{},{},{}\n",
@@ -162,7 +188,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             shown[1],
             verdict[0],
             verdict[1],
-            quoted(why)
+            quoted(&why)
         );
     }
     let mut outcome = Outcome::default();

@@ -5,11 +5,10 @@
 //! Z_b/(Z_b + Z_s) of that on a rigid wall and velocity Z_s/(Z_b + Z_s) of the flow's (Saint-Venant 1867). Were rigidity all, density
 //! would not matter.
 
-use super::records::{DENSITY, RIGID, SCATTER, impedance};
+use super::records::{DENSITY, SCATTER, height, impedance, on_rigid_wall, peaks, young_of_one};
 use crate::check::{Check, Expected, Kind};
 use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel};
-use crate::validation::flume::scatter::Scatter;
+use crate::plot::curves::{self, Curve, Curves, panel};
 use crate::validation::{Context, Failure, Validation};
 use crate::verification::Outcome;
 use crate::verification::report::number;
@@ -40,13 +39,11 @@ pub struct Range {
 /// # Errors
 /// A record is not as it should be, or a study is stopped.
 pub fn analyse(context: &mut Context) -> Result<(String, Vec<Range>), Failure> {
-    let walls = RIGID.rows(context)?;
-    let wall = walls.iter().filter(|r| r.case == "60deg_rigid" && r.set["cell_m"] == "0.01");
-    let rigid = Scatter::of(wall.map(|r| r.get("peak_20ms_n"))).mean;
+    let [rigid, _] = on_rigid_wall(context)?.map(|wall| wall.mean);
     let case = DENSITY.first_case()?;
     let (sand, barrier) = (&case.materials["sand"], &case.materials["barrier"]);
     let of_sand = impedance(sand.young_pa, sand.poisson, sand.density_kg_per_m3);
-    let young_of_one = super::rigidity::young_of_one(&case);
+    let (young_of_one, height) = (young_of_one(&case), height(&case));
     let mut text = String::from(
         "stiffness_1,density_kg_per_m3,peak_20ms_n,peak_step_n,over_rigid_1,impedance_over_rigid_1,velocity_over_front_1,\
          impedance_velocity_1,deflection_at_peak_1,tip_max_1\n",
@@ -66,8 +63,8 @@ pub fn analyse(context: &mut Context) -> Result<(String, Vec<Range>), Failure> {
             share,
             run.get("peak_barrier_velocity_m_per_s") / front[0],
             1.0 - share,
-            run.get("peak_deflection_m") / 0.6,
-            run.get("tip_max_m") / 0.6,
+            run.get("peak_deflection_m") / height,
+            run.get("tip_max_m") / height,
         ];
         let stiffness = run.set["stiffness_1"].clone();
         text += &format!("{stiffness},{}\n", numbers.map(number).join(","));
@@ -86,8 +83,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let repeated = SCATTER.rows(context)?;
     for r in &ranges {
         let [light, heavy] = r.ends;
-        let own = repeated.iter().filter(|s| s.set["stiffness_1"] == r.stiffness && s.set["cell_m"] == "0.01");
-        let peaks = Scatter::of(own.map(|s| s.get("peak_20ms_n")));
+        let peaks = peaks(repeated.iter().filter(|s| s.set["stiffness_1"] == r.stiffness));
         // Two standard deviations of the ratio of two single runs.
         let chance = 2.0 * 2f64.sqrt() * peaks.deviation / peaks.mean;
         // Where waves return sooner than the force grows, the barrier is no half-space; what it does then is in the table.
@@ -109,10 +105,6 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         );
     }
     Ok(outcome)
-}
-
-const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel<'static> {
-    Panel { title, only }
 }
 
 const SHARES: Curves = Curves {

@@ -1,9 +1,10 @@
 //! Numerical error of the barrier's numbers: cells of 20, 10 and 5 mm, moved grids and other packings, explicit and implicit steps.
 
-use super::records::{FINE, INTEGRATION, SCATTER};
+use super::balances::{self, largest};
+use super::records::{FINE, INTEGRATION, SCATTER, on_cells, on_study_cells};
 use crate::check::{Check, Kind};
 use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel};
+use crate::plot::curves::{self, Curve, Curves, panel};
 use crate::theory::order::Study as Order;
 use crate::validation::flume::runs::Run;
 use crate::validation::flume::scatter::Scatter;
@@ -50,12 +51,9 @@ pub struct Numerical {
 impl Numerical {
     /// Of repeated runs on two grids and one on the third.
     pub fn of(repeated: &[(f64, Run)], fine: &[(f64, Run)], stiffness: f64, quantity: &str) -> Self {
-        let on = |cell: &str| {
-            let own = repeated.iter().filter(|(n, r)| *n == stiffness && r.set["cell_m"] == cell);
-            Scatter::of(own.map(|(_, r)| r.get(quantity)))
-        };
+        let own = || repeated.iter().filter(|(n, _)| *n == stiffness).map(|(_, r)| r);
         let finest = fine.iter().filter(|(n, _)| *n == stiffness).map(|(_, r)| r.get(quantity));
-        let scatter = [on("0.02"), on("0.01"), Scatter::of(finest)];
+        let scatter = [on_cells(own(), "0.02", quantity), on_study_cells(own(), quantity), Scatter::of(finest)];
         Self { scatter, order: Order::new(scatter.map(|s| s.mean), CELLS) }
     }
 }
@@ -87,18 +85,11 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     outcome.tables.push(("barrier_grids_integration".into(), text));
     outcome.checks.extend(checks);
     for (name, rows) in [("moved grids", &repeated), ("fine cells", &fine)] {
-        let worst = rows.iter().map(|(_, r)| r.get("energy_residual_1").abs());
-        outcome.checks.push(
-            Check::at_most(format!("{name}: energy not accounted for over E0, largest"), largest(worst), 0.02, "1")
-                .because("second-order terms of the transfers; 2 % is where forces would begin to suffer")
-                .from(Kind::Conservation, "ledgers of all runs"),
-        );
+        let worst = largest(rows.iter().map(|(_, r)| r.get("energy_residual_1")));
+        let check = balances::energy(&format!("{name}: "), worst);
+        outcome.checks.push(check.from(Kind::Conservation, "ledgers of all runs"));
     }
     Ok(outcome)
-}
-
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a, x| if x.is_nan() || a.is_nan() { f64::NAN } else { a.max(x) })
 }
 
 /// Implicit against explicit steps: means of repeated runs, their difference, and what chance makes of it. What is smooth on the scale
@@ -140,16 +131,12 @@ fn integration(context: &mut Context) -> Result<(String, Vec<Check>), Failure> {
     for (n, cell) in &stiffnesses {
         let lost = |integration: &str| {
             let own = rows.iter().filter(|(m, r)| m == n && r.set["integration"] == integration);
-            own.filter(|(_, r)| r.get("energy_residual_1").abs() > 0.02).count() as f64
+            own.filter(|(_, r)| r.get("energy_residual_1").abs() > balances::ENERGY).count() as f64
         };
         let counts = [lost("explicit"), lost("implicit")].map(number);
         text += &format!("{cell},runs that miss more than 2 % of E0,{},,{},,,,9\n", counts[0], counts[1]);
     }
     Ok((text, checks))
-}
-
-const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel<'static> {
-    Panel { title, only }
 }
 
 const PEAKS: Curves = Curves {

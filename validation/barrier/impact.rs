@@ -1,14 +1,15 @@
 //! The flume at 60 degrees against four barriers on coarse cells, run as the command does it: what must hold at every moment, whatever
 //! the barrier.
 
+use super::balances::{Balances, largest};
 use super::close_up::BARRIERS;
-use super::records::RIGIDITY;
-use super::rigidity::LITERAL;
-use crate::check::{Check, Kind};
+use super::records::{LITERAL, RIGIDITY};
+use crate::check::Check;
 use crate::gauge::StructureSample;
 use crate::plot::PlotError;
 use crate::run::{Records, Summary, run_in_memory};
 use crate::study::quantities::{QUANTITIES, measure};
+use crate::validation::watch::watched;
 use crate::validation::{Context, Failure, Validation};
 use crate::verification::report::number;
 use crate::verification::{Fault, FaultKind, Outcome};
@@ -37,20 +38,9 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     // One barrier shows a fault.
     let barriers = if context.fault == Fault::NONE { &BARRIERS[..] } else { &BARRIERS[..1] };
     for &(name, stiffness) in barriers {
-        let plan = RIGIDITY.record.plan()?.1;
-        let own = plan.into_iter().find(|r| r.case_name == LITERAL && r.values[0] == stiffness);
-        let mut case = own.ok_or_else(|| Failure::Record(format!("the study has no barrier of {stiffness}")))?.case;
+        let mut case = RIGIDITY.planned(LITERAL, stiffness)?.case;
         (case.grid.spacing_m, case.stages.run.end_time_s) = (CELL, END);
-        let progress = &mut *context.progress;
-        let mut stopped = false;
-        let (_, mut records, summary) = run_in_memory(&case, &mut |p| {
-            let go_on = progress(&format!("{name}: {} {:.2} s", p.stage.name(), p.time));
-            stopped |= !go_on;
-            go_on
-        })?;
-        if stopped {
-            return Err(Failure::Stopped);
-        }
+        let (_, mut records, summary) = watched(name, context.progress, |p| run_in_memory(&case, p))?;
         for (_, sample) in &mut records.structure {
             sample.contact.normal *= context.fault.contact_force;
             sample.contact.tangential *= context.fault.contact_force;
@@ -89,42 +79,10 @@ fn imbalance(s: &StructureSample) -> f64 {
 }
 
 fn checks(name: &str, records: &Records, summary: &Summary) -> Vec<Check> {
-    let bound = |what: &str, measured: f64, limit: f64, reason: &str| {
-        Check::at_most(format!("{name}: {what}"), measured, limit, "1")
-            .because(reason)
-            .from(Kind::Conservation, "ledgers and gauges of the run")
-    };
     // Samples without force have nothing to compare but round-off.
     let loaded = records.structure.iter().filter(|(_, s)| s.contact.normal.abs() > 1.0);
-    let worst = loaded.map(|(_, s)| imbalance(s)).fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
-    let structure = summary.structure.as_ref();
-    vec![
-        bound(
-            "contact less clamp and inertia over their sum, largest of all samples",
-            worst,
-            1e-9,
-            "round-off of sums: two readings of one force at every moment",
-        ),
-        bound("momentum residual / sum of impulses", summary.momentum.closure_max, 1e-10, "round-off of sums"),
-        bound(
-            "energy residual / E0, largest",
-            summary.energy.residual_max,
-            0.02,
-            "second-order terms of the transfers; 2 % is where forces would begin to suffer",
-        ),
-        bound(
-            "deepest penetration / cell size",
-            summary.momentum.penetration_max_m / CELL,
-            1.0,
-            "contact acts on nodes; a point within a cell of the face is pushed back",
-        ),
-        bound(
-            "widest gap in the barrier, cells",
-            structure.map_or(f64::NAN, |s| s.gap_max_cells),
-            0.25,
-            "half a spacing of four points a cell: torn",
-        ),
-    ]
+    let worst = largest(loaded.map(|(_, s)| imbalance(s)));
+    Balances::of(summary, Some(worst)).checks(&format!("{name}: "), "ledgers and gauges of the run")
 }
 
 /// Impulse against the face by contact, by clamp and inertia, and by the stress of one, two and three layers of points.

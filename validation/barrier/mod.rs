@@ -1,10 +1,11 @@
 //! The parametric study of Ng, Wang, Choi, De Silva and Poudyal: the flume at 60 degrees against a vertical elastic barrier whose
 //! flexural rigidity spans six decades.
 //!
-//! [`rigid`] predicts the limit of a rigid wall, [`impact`] judges what must hold at every moment; [`rigidity`], [`grids`] and
-//! [`density`] analyse studies of many runs, which [`records`] lists; [`close_up`] looks into four of the barriers; [`claims`] holds
+//! [`rigid`] predicts the limit of a rigid wall, [`impact`] judges what must hold at every moment; [`rigidity`], [`grids`],
+//! [`density`] and [`weight`] analyse studies of many runs, which [`records`] lists; [`close_up`] looks into four of the barriers; [`claims`] holds
 //! every claim of the paper against all of this.
 
+pub mod balances;
 pub mod beam;
 pub mod claims;
 pub mod close_up;
@@ -14,8 +15,12 @@ pub mod impact;
 pub mod records;
 pub mod rigid;
 pub mod rigidity;
+pub mod weight;
 
 use super::data;
 
 /// The file of the paper's numbers for the barrier.
 const PUBLISHED: data::Source = data::SOURCES[1];
+
+/// Angle of the flume in all cases of the barrier, degrees below the horizontal.
+const INCLINATION_DEG: f64 = 60.0;

@@ -1,8 +1,12 @@
 //! The studies of the barrier and their records.
 
-use crate::case::Case;
+use crate::case::{Body, Case};
+use crate::output::Table;
+use crate::run::scene;
+use crate::study::PlannedRun;
 use crate::theory::elastic::{Elastic, confined_speed};
 use crate::validation::flume::runs::{self, Run};
+use crate::validation::flume::scatter::Scatter;
 use crate::validation::record::Record;
 use crate::validation::{Context, Failure};
 
@@ -41,14 +45,26 @@ pub const RIGID: BarrierStudy = study!("barrier_rigid_wall", "rigid", &["cell_m"
 pub const INTEGRATION: BarrierStudy = study!("barrier_integration", "integration", &["stiffness_1", "integration"]);
 /// Barriers of equal rigidity and other mass.
 pub const DENSITY: BarrierStudy = study!("barrier_density", "density", &["density_kg_per_m3", "stiffness_1"]);
+/// Barriers with and without their own weight.
+pub const WEIGHT: BarrierStudy = study!("barrier_weight", "weight", &["weightless", "stiffness_1"]);
+/// The calibrated release, moved and repacked.
+pub const SCATTER_CALIBRATED: BarrierStudy =
+    study!("barrier_scatter_calibrated", "scatter_calibrated", &["cell_m", "stiffness_1"]);
+
+/// The literal release: name of its case.
+pub const LITERAL: &str = "60deg";
+/// The calibrated one.
+pub const CALIBRATED: &str = "60deg_calibrated";
+/// Cell size of the study of rigidities, m, as studies of several sizes write it.
+pub const STUDY_CELL: &str = "0.01";
 
 /// All of them.
-pub const ALL: [BarrierStudy; 6] = [RIGIDITY, SCATTER, FINE, RIGID, INTEGRATION, DENSITY];
+pub const ALL: [BarrierStudy; 8] = [RIGIDITY, SCATTER, SCATTER_CALIBRATED, FINE, RIGID, INTEGRATION, DENSITY, WEIGHT];
 
 /// The cases: name and text.
 pub const CASES: [(&str, &str); 4] = [
-    ("60deg", include_str!("60deg.toml")),
-    ("60deg_calibrated", include_str!("60deg_calibrated.toml")),
+    (LITERAL, include_str!("60deg.toml")),
+    (CALIBRATED, include_str!("60deg_calibrated.toml")),
     ("60deg_rigid", include_str!("60deg_rigid.toml")),
     ("60deg_rigid_calibrated", include_str!("60deg_rigid_calibrated.toml")),
 ];
@@ -80,6 +96,27 @@ impl BarrierStudy {
         Ok(self.rows(context)?.into_iter().map(|run| (stiffness(&run).unwrap_or(f64::NAN), run)).collect())
     }
 
+    /// The planned run of a case (by name) against the barrier of a stiffness (as the study writes it).
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn planned(&self, case: &str, stiffness: &str) -> Result<PlannedRun, Failure> {
+        let column = self.columns.iter().position(|c| *c == "stiffness_1").unwrap_or(0);
+        let own = self.record.plan()?.1.into_iter().find(|r| r.case_name == case && r.values[column] == stiffness);
+        own.ok_or_else(|| Failure::Record(format!("{} has no barrier of {stiffness} in {case}", self.record.name)))
+    }
+
+    /// What is on record of a planned run, whatever the context asks for.
+    ///
+    /// # Errors
+    /// It is not on record.
+    pub fn recorded(&self, planned: &PlannedRun) -> Result<Run, Failure> {
+        let table = Table::parse(self.record.runs, self.record.name)?;
+        let place = table.cells("key")?.iter().position(|key| *key == planned.key);
+        let missing = || Failure::Record(format!("{}: {} is not on record", self.record.name, planned.what));
+        Ok(runs::rows(&table, self.columns)?.swap_remove(place.ok_or_else(missing)?))
+    }
+
     /// The case of its first run, for what all runs have in common.
     ///
     /// # Errors
@@ -95,14 +132,56 @@ pub fn impedance(young: f64, poisson: f64, density: f64) -> f64 {
 }
 
 /// Impact coefficient: force over rho v^2 cos(theta) h w, with the flow's density (kg/m3), the front's velocity (m/s) and depth (m),
-/// the width of the flume (m) and the angle between the flow and the barrier's normal, 60 degrees (Eq. 1 of the paper).
+/// the width of the flume (m) and the angle between the flow and the barrier's normal (Eq. 1 of the paper).
 pub fn impact_coefficient(case: &Case, force: f64, velocity: f64, depth: f64) -> f64 {
     let density = case.materials["sand"].density_kg_per_m3;
-    force / (density * velocity * velocity * libm::cos(60f64.to_radians()) * depth * case.grid.thickness_m)
+    let across = libm::cos(barrier(case).map_or(f64::NAN, |b| b.rotation_deg).to_radians());
+    force / (density * velocity * velocity * across * depth * case.grid.thickness_m)
+}
+
+/// The barrier of a case.
+pub fn barrier(case: &Case) -> Option<&Body> {
+    case.bodies.iter().find(|b| b.name == "barrier")
+}
+
+/// Height of the barrier's face above its clamp, m; without the round-off of turning it.
+pub fn height(case: &Case) -> f64 {
+    scene::barrier_face(case, "barrier").map_or(f64::NAN, |face| (1e9 * face.height()).round() / 1e9)
+}
+
+/// Young's modulus of a barrier of the normalised stiffness 1, Pa, for the height and thickness of the case.
+pub fn young_of_one(case: &Case) -> f64 {
+    let depth = barrier(case).map_or(f64::NAN, |b| b.size_m()[0]);
+    crate::theory::barrier::young_for(1.0, height(case), depth, case.grid.thickness_m)
+}
+
+/// Largest force over 20 ms of these runs on the cells of the study.
+pub fn peaks<'a>(runs: impl IntoIterator<Item = &'a Run>) -> Scatter {
+    on_study_cells(runs, "peak_20ms_n")
+}
+
+/// Mean and scatter of a quantity over those of the runs that have the cells of the study.
+pub fn on_study_cells<'a>(runs: impl IntoIterator<Item = &'a Run>, quantity: &str) -> Scatter {
+    on_cells(runs, STUDY_CELL, quantity)
+}
+
+/// Mean and scatter of a quantity over those of the runs that have cells of this size, m, as the study writes it.
+pub fn on_cells<'a>(runs: impl IntoIterator<Item = &'a Run>, cell: &str, quantity: &str) -> Scatter {
+    Scatter::of(runs.into_iter().filter(|r| r.set["cell_m"] == cell).map(|r| r.get(quantity)))
+}
+
+/// Largest force over 20 ms on a rigid wall, N: of the literal and the calibrated release.
+///
+/// # Errors
+/// The record is not as it should be, or the study is stopped.
+pub fn on_rigid_wall(context: &mut Context) -> Result<[Scatter; 2], Failure> {
+    let walls = RIGID.rows(context)?;
+    Ok(["60deg_rigid", "60deg_rigid_calibrated"].map(|case| peaks(walls.iter().filter(|r| r.case == case))))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::{PUBLISHED, data};
     use super::*;
 
     #[test]
@@ -117,6 +196,19 @@ mod tests {
                 "{}",
                 study.record.name
             );
+        }
+    }
+
+    #[test]
+    fn what_is_said_of_all_cases_is_true_of_all() {
+        for (name, _) in CASES {
+            let text = read_case(name).expect("a case");
+            let case = crate::case::parse(&text, name).expect("a case").case;
+            assert_eq!(case.gravity.inclination_deg, super::super::INCLINATION_DEG, "{name}");
+            assert_eq!(case.grid.spacing_m.to_string(), STUDY_CELL, "{name}");
+            if barrier(&case).is_some() {
+                assert!((height(&case) - data::row(PUBLISHED, "B44").value).abs() < 1e-12, "{name}");
+            }
         }
     }
 

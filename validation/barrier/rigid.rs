@@ -3,7 +3,8 @@
 //! Two readings of the release: the literal one, and the set that the flume at 40 and 23 degrees was calibrated with, untouched.
 //! What must hold is judged; the paper's numbers, none of which was used for anything, stand beside ours.
 
-use super::PUBLISHED;
+use super::balances::Balances;
+use super::{INCLINATION_DEG, PUBLISHED};
 use crate::case::parse;
 use crate::check::{Check, Expected, Kind};
 use crate::plot::force_time::{self, ReferenceLine};
@@ -78,26 +79,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
 /// What must hold whatever the paper says.
 fn checks(flume: &Flume) -> Vec<Check> {
     let (name, summary) = (flume.name, &flume.summary);
-    let bound = |what: &str, measured: f64, limit: f64, reason: &str| {
-        Check::at_most(format!("{name}: {what}"), measured, limit, "1")
-            .because(reason)
-            .from(Kind::Conservation, "balance of the ledger")
-    };
-    let mut checks = vec![
-        bound("momentum residual / sum of impulses", summary.momentum.closure_max, 1e-10, "round-off of sums"),
-        bound(
-            "energy residual / E0, largest",
-            summary.energy.residual_max,
-            0.02,
-            "second-order terms of the transfers; 2 % is where forces would begin to suffer",
-        ),
-        bound(
-            "deepest penetration / cell size",
-            summary.momentum.penetration_max_m / summary.case.grid.spacing_m,
-            1.0,
-            "a wall acts on its nodes; a point within one cell behind them is still pushed back",
-        ),
-    ];
+    let mut checks = Balances::of(summary, None).checks(&format!("{name}: "), "balance of the ledger");
     // Side walls, which the balance of the deposit leaves out, hold a part of it, and may brake the front below a block.
     let by_base_alone = summary.case.side_walls.friction == 0.0;
     if let Some(d) = summary.deposit.as_ref().filter(|_| by_base_alone) {
@@ -140,7 +122,7 @@ fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
         };
         let lines: [ReferenceLine; 0] = [];
         force_time::draw(run.join("history.csv"), &lines, at("force_time"))?;
-        flow_snapshots::draw(run.join("field.csv"), run.join("geometry.csv"), 60.0, at("flow_snapshots"))?;
+        flow_snapshots::draw(run.join("field.csv"), run.join("geometry.csv"), INCLINATION_DEG, at("flow_snapshots"))?;
     }
     Ok(names)
 }

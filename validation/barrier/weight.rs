@@ -3,13 +3,12 @@
 //! An upright cantilever that carries its own weight is softer against what bends it slowly by 1 - rho/rho_c, where rho_c is the density at which it would
 //! buckle (Greenhill 1881). What happens within milliseconds does not see that.
 
-use super::records::{SCATTER, WEIGHT};
+use super::records::{SCATTER, WEIGHT, barrier, height, on_study_cells, young_of_one};
 use crate::check::{Check, Expected, Kind, Tolerance};
 use crate::plot::PlotError;
 use crate::plot::curves::{self, Curve, Curves};
 use crate::theory::barrier::buckling_density;
 use crate::validation::flume::runs::Run;
-use crate::validation::flume::scatter::Scatter;
 use crate::validation::{Context, Failure, Validation};
 use crate::verification::Outcome;
 use crate::verification::report::number;
@@ -28,9 +27,9 @@ pub const VALIDATION: Validation = Validation {
 fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::default();
     let case = WEIGHT.first_case()?;
-    let barrier = &case.materials["barrier"];
-    let depth = case.bodies.iter().find(|b| b.name == "barrier").map_or(f64::NAN, |b| b.size_m()[0]);
-    let (section, height) = (depth * case.grid.thickness_m, super::HEIGHT);
+    let density = case.materials["barrier"].density_kg_per_m3;
+    let depth = barrier(&case).map_or(f64::NAN, |b| b.size_m()[0]);
+    let section = depth * case.grid.thickness_m;
     let (runs, repeated) = (WEIGHT.by_stiffness(context)?, SCATTER.by_stiffness(context)?);
     let find = |n: f64, weightless: &str| -> Result<&Run, Failure> {
         let found = runs.iter().find(|(m, r)| *m == n && r.set["weightless"] == weightless);
@@ -41,9 +40,9 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     );
     for (n, light) in runs.iter().filter(|(_, r)| r.set["weightless"] == "true") {
         let heavy = find(*n, "false")?;
-        let rigidity = n * super::rigidity::young_of_one(&case) * case.grid.thickness_m * depth.powi(3) / 12.0;
-        let critical = buckling_density(rigidity, height, section, case.gravity.magnitude_m_per_s2);
-        let softer = 1.0 - barrier.density_kg_per_m3 / critical;
+        let rigidity = n * young_of_one(&case) * section * depth * depth / 12.0;
+        let critical = buckling_density(rigidity, height(&case), section, case.gravity.magnitude_m_per_s2);
+        let softer = 1.0 - density / critical;
         let both = |name: &str| [light.get(name), heavy.get(name)];
         let ([peak, heavy_peak], [tip, heavy_tip]) = (both("peak_20ms_n"), both("tip_max_m"));
         let numbers =
@@ -51,17 +50,21 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         text += &format!("{numbers}\n");
         // Two standard deviations of the ratio of two single runs.
         let chance = |name: &str| {
-            let own = repeated.iter().filter(|(m, r)| m == n && r.set["cell_m"] == "0.01");
-            let s = Scatter::of(own.map(|(_, r)| r.get(name)));
+            let s = on_study_cells(repeated.iter().filter(|(m, _)| m == n).map(|(_, r)| r), name);
             2.0 * 2f64.sqrt() * s.deviation / s.mean
         };
         outcome.checks.push(
-            Check::value(format!("n = {n}: force over 20 ms with weight over that without"), heavy_peak / peak, 1.0, "1")
-                .within(
-                    Tolerance::Absolute(chance("peak_20ms_n")),
-                    "single runs: two standard deviations of the ratio, from the repeated ones",
-                )
-                .from(Kind::Analytic, "inertia, not stiffness, answers within milliseconds"),
+            Check::value(
+                format!("n = {n}: force over 20 ms with weight over that without"),
+                heavy_peak / peak,
+                1.0,
+                "1",
+            )
+            .within(
+                Tolerance::Absolute(chance("peak_20ms_n")),
+                "single runs: two standard deviations of the ratio, from the repeated ones",
+            )
+            .from(Kind::Analytic, "inertia, not stiffness, answers within milliseconds"),
         );
         let most = 1.0 / softer + chance("tip_max_m");
         outcome.checks.push(

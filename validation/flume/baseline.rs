@@ -10,7 +10,7 @@ use super::rules::judge;
 use super::runs::{self, Run};
 use super::scatter::Scatter;
 use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel};
+use crate::plot::curves::{self, Curve, Curves, panel};
 use crate::theory::order::Study as Order;
 use crate::validation::record::Record;
 use crate::validation::{Context, Failure, Validation};
@@ -160,10 +160,6 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     outcome.tables.push(("flume_baseline_scatter".into(), scatter));
     outcome.tables.push(("flume_baseline_grids".into(), grids));
     Ok(outcome)
-}
-
-const fn panel(title: &'static str, only: &'static [(&'static str, &'static str)]) -> Panel<'static> {
-    Panel { title, only }
 }
 
 const SCATTER: Curves = Curves {

@@ -11,7 +11,7 @@ use super::runs::{self, Run};
 use super::{compare, read_case};
 use crate::output::Table;
 use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel};
+use crate::plot::curves::{self, Curve, Curves, panel};
 use crate::validation::data::Datum;
 use crate::validation::record::Record;
 use crate::validation::{Context, Failure, Validation};
@@ -211,10 +211,6 @@ fn residuals(members: &[Member], targets: &[Vec<Target>; 2]) -> String {
         }
     }
     text
-}
-
-const fn panel(title: &'static str, input: &'static [(&'static str, &'static str)]) -> Panel<'static> {
-    Panel { title, only: input }
 }
 
 const PROFILES: Curves = Curves {

@@ -17,6 +17,7 @@ pub(super) mod scatter;
 pub mod sensitivity;
 pub mod verdict;
 
+use super::watch::watched;
 use super::{Context, Failure, Validation};
 use crate::case::{Case, Contact, parse};
 use crate::plot::PlotError;
@@ -51,22 +52,14 @@ pub(super) struct Flume {
 impl Flume {
     /// Runs a case into `folder`, which is emptied, or in memory.
     pub fn run(name: &'static str, case: &Case, folder: Option<&Path>, context: &mut Context) -> Result<Self, Failure> {
-        let progress = &mut *context.progress;
-        let mut stopped = false;
-        let mut watch = |p: &crate::run::Progress| {
-            let go_on = progress(&format!("{name}: {} {:.2} s", p.stage.name(), p.time));
-            stopped |= !go_on;
-            go_on
-        };
-        let done = match folder {
-            None => run_in_memory(case, &mut watch)?,
-            Some(folder) => {
-                clear(folder)?;
-                rayon::scope(|_| files::run_into(case, folder, &mut watch))?
-            }
-        };
-        let (experiment, records, summary) = done;
-        if stopped { Err(Failure::Stopped) } else { Ok(Self { name, experiment, records, summary }) }
+        if let Some(folder) = folder {
+            clear(folder)?;
+        }
+        let (experiment, records, summary) = watched(name, context.progress, |p| match folder {
+            None => run_in_memory(case, p),
+            Some(folder) => rayon::scope(|_| files::run_into(case, folder, p)),
+        })?;
+        Ok(Self { name, experiment, records, summary })
     }
 
     /// A quantity by its name in the tables of studies.
