@@ -27,7 +27,7 @@ pub fn plateau(points: &[Point], deviation: f64) -> f64 {
     points.get(off.map_or(0, |k| k + 1)).map_or(f64::NAN, |p| p.stiffness)
 }
 
-/// Least stiffness from which the tip never moves by [`NEGLIGIBLE`] of the height.
+/// Least stiffness from which the tip never moves by 3 % of the height, which the paper calls negligible.
 pub fn negligible(points: &[Point]) -> f64 {
     let limit = NEGLIGIBLE * RIGIDITY.first_case().map_or(f64::NAN, |case| height(&case));
     let off = points.iter().rposition(|p| p.run.get("tip_max_m") > limit);

@@ -85,7 +85,7 @@ pub fn check(release: &str, barrier: &str, shares: &Shares) -> Check {
         .from(Kind::Conservation, "plastic work of the ledger: total work less what is stored")
 }
 
-/// Header of [`table`].
+/// Header of the table of shares.
 pub fn header() -> String {
     format!(
         "release,barrier,before_arrival_1,{},slip_of_plastic_1,half_deposit_after_s,flow_until_half_1,missed_1\n",
@@ -118,7 +118,7 @@ pub(in super::super) fn paths(release: &Release, slip: &Table) -> Result<String,
     Ok(text)
 }
 
-/// Header of [`thresholds`].
+/// Header of the table of thresholds.
 pub const BY_THRESHOLD: &str = "release,barrier,rest_over_front_1,cells,deposit_1,slip_surface_1,flow_1\n";
 
 /// Shares of the plastic work after the arrival by threshold.
