@@ -14,6 +14,9 @@ const RATIO_DIGITS: usize = 2;
 
 /// Everything that a rung leaves behind, as (name without extension, CSV text): its checks, then its tables.
 pub fn files(name: &str, outcome: &Outcome) -> Vec<(String, String)> {
+    let mut names: Vec<&str> = outcome.tables.iter().map(|t| t.0.as_str()).chain([name]).collect();
+    names.sort_unstable();
+    assert!(names.windows(2).all(|w| w[0] != w[1]), "{name}: two tables of one name, one of which would be lost");
     std::iter::once((name.to_string(), checks_csv(outcome))).chain(outcome.tables.iter().cloned()).collect()
 }
 

@@ -156,7 +156,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         outcome.checks.push(check(names[0], mean(0), 4.0 * share, coarse));
         outcome.checks.push(check(names[1], mean(1), 2.0 * share, coarse));
     }
-    outcome.tables.push(("barrier_beam".into(), table));
+    outcome.tables.push(("barrier_beam_grids".into(), table));
     outcome.tables.push(("barrier_beam_swing".into(), path));
     Ok(outcome)
 }

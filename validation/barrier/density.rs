@@ -79,7 +79,7 @@ pub fn analyse(context: &mut Context) -> Result<(String, Vec<Range>), Failure> {
 fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let (text, ranges) = analyse(context)?;
     let mut outcome = Outcome::default();
-    outcome.tables.push(("barrier_density".into(), text));
+    outcome.tables.push(("barrier_density_shares".into(), text));
     let repeated = SCATTER.rows(context)?;
     for r in &ranges {
         let [light, heavy] = r.ends;
@@ -127,6 +127,6 @@ const SHARES: Curves = Curves {
 
 fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
     let name = "barrier_density_plot.svg";
-    curves::draw(folder.join("barrier_density.csv"), &SHARES, folder.join(name))?;
+    curves::draw(folder.join("barrier_density_shares.csv"), &SHARES, folder.join(name))?;
     Ok(vec![name.into()])
 }

@@ -79,7 +79,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             orders += &format!("{stiffness_cell},{quantity},{},{numbers}\n", o.trend.name());
         }
     }
-    outcome.tables.push(("barrier_grids".into(), grids));
+    outcome.tables.push(("barrier_grids_numbers".into(), grids));
     outcome.tables.push(("barrier_grids_order".into(), orders));
     let (text, checks) = integration(context)?;
     outcome.tables.push(("barrier_grids_integration".into(), text));
@@ -161,6 +161,6 @@ const PEAKS: Curves = Curves {
 
 fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
     let name = "barrier_grids_plot.svg";
-    curves::draw(folder.join("barrier_grids.csv"), &PEAKS, folder.join(name))?;
+    curves::draw(folder.join("barrier_grids_numbers.csv"), &PEAKS, folder.join(name))?;
     Ok(vec![name.into()])
 }

@@ -78,7 +78,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             .from(Kind::Analytic, "Greenhill 1881"),
         );
     }
-    outcome.tables.push(("barrier_weight".into(), text));
+    outcome.tables.push(("barrier_weight_ratios".into(), text));
     Ok(outcome)
 }
 
@@ -95,6 +95,6 @@ const RATIOS: Curves = Curves {
 
 fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
     let name = "barrier_weight_plot.svg";
-    curves::draw(folder.join("barrier_weight.csv"), &RATIOS, folder.join(name))?;
+    curves::draw(folder.join("barrier_weight_ratios.csv"), &RATIOS, folder.join(name))?;
     Ok(vec![name.into()])
 }

@@ -59,7 +59,7 @@ pub(super) fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
         ("barrier_rigidity_impedance.svg", &AGAINST_IMPEDANCE),
     ];
     for (name, what) in figures {
-        curves::draw(folder.join("barrier_rigidity.csv"), what, folder.join(name))?;
+        curves::draw(folder.join("barrier_rigidity_runs.csv"), what, folder.join(name))?;
     }
     Ok(figures.map(|f| f.0.into()).into())
 }

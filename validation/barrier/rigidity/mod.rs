@@ -28,7 +28,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let analysis = analyse(context)?;
     let cell = RIGIDITY.first_case()?.grid.spacing_m;
     let mut outcome = Outcome { checks: checks::checks(&analysis, cell), ..Outcome::default() };
-    outcome.tables.push(("barrier_rigidity".into(), table::table(&analysis)?));
+    outcome.tables.push(("barrier_rigidity_runs".into(), table::table(&analysis)?));
     outcome.tables.push(("barrier_rigidity_threshold".into(), threshold::table(&analysis)?));
     Ok(outcome)
 }
