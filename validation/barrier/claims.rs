@@ -208,7 +208,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             .from(Kind::Conservation, "the ledger of the run"),
         );
     }
-    outcome.tables.push(("barrier_claims".into(), text));
+    outcome.tables.push(("barrier_claims_all".into(), text));
     let mut text = String::from(
         "stiffness_1,lightest_kg_per_m3,heaviest_kg_per_m3,force_heaviest_over_lightest_1,impedances_1,by_rigidity_alone_1\n",
     );

@@ -18,7 +18,7 @@ use crate::verification::Outcome;
 pub const VALIDATION: Validation = Validation {
     name: "barrier_rigidity",
     title: "Twelve rigidities of the barrier: impact coefficient, deflection, and where rigid ends",
-    study: "80 runs, about 20 minutes",
+    study: "100 runs, about 25 minutes",
     run,
     draw: figures::draw,
     covers: &[],
