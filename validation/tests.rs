@@ -79,6 +79,7 @@ validations!(
     barrier_rigidity,
     barrier_grids,
     barrier_density,
+    barrier_weight,
     barrier_close_up,
     barrier_claims,
     column_level,

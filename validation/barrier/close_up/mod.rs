@@ -75,7 +75,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         write_text(derived.join("slip_shares.csv"), &slip::shares::paths(release, &places)?)?;
     }
     outcome.tables.push(("barrier_close_up_celerity".into(), celerities));
-    outcome.tables.push(("barrier_close_up_slip".into(), slip));
+    outcome.tables.push(("barrier_close_up_slip_shares".into(), slip));
     outcome.tables.push(("barrier_close_up_slip_thresholds".into(), thresholds));
     Ok(outcome)
 }
