@@ -84,13 +84,13 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
 
 const RATIOS: Curves = Curves {
     x: "stiffness_1",
-    x_title: "normalised stiffness",
+    x_title: "normalised stiffness 3 EI/H\u{b3}",
     y_title: "with weight over without",
     curves: &[
         Curve { column: "peak_ratio_1", label: "largest force over 20 ms", exact: false },
         Curve { column: "tip_ratio_1", label: "largest deflection of the tip", exact: false },
     ],
-    ..Curves::LOGARITHMIC
+    ..Curves::LINEAR
 };
 
 fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
