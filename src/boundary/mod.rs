@@ -1,7 +1,7 @@
 //! Rigid boundaries: planes, walls of finite height at any angle to the grid, and gates.
 //!
 //! A boundary acts on the nodes inside it: material may leave them but not press into them, and slides on them with Coulomb
-//! friction. [`Boundary`] is the geometry, [`nodes`] the law at a node.
+//! friction. A clamp holds material back as well, on the nodes nearest to its plane and behind it. [`Boundary`] is the geometry, [`nodes`] the law at a node.
 
 pub mod nodes;
 

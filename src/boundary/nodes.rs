@@ -1,7 +1,7 @@
 //! The contact law at a node.
 //!
 //! A boundary answers the motion that a node would have without it: an impulse along its normal that stops approach and never
-//! holds back, and one along its face that stops sliding, limited by the friction coefficient times the normal impulse. A node
+//! holds back (but for a clamp), and one along its face that stops sliding, limited by the friction coefficient times the normal impulse. A node
 //! held by several boundaries finds all impulses together by projected Gauss-Seidel iteration (Jean 1999), so that a corner is
 //! no special case.
 
