@@ -96,6 +96,5 @@ const STEP: Curves = Curves {
         Curve { column: "step_ms_1_thread", label: "one thread", exact: false },
         Curve { column: "step_ms_2_threads", label: "two threads", exact: false },
     ],
-    orders: &[1.0],
     ..Curves::LOGARITHMIC
 };
