@@ -11,7 +11,7 @@ use serde::Serialize;
 const FINAL_WINDOW: f64 = 0.3;
 /// Gap between neighbouring points, in cells, from which a barrier counts as torn: half their distance at the start with four
 /// points a cell, three quarters of it with nine.
-const TORN: f64 = 0.25;
+pub const TORN: f64 = 0.25;
 /// Share of the forces that contact, clamp and inertia may miss each other by.
 const BALANCED: f64 = 1e-9;
 

@@ -2,9 +2,8 @@
 
 use crate::check::{Check, Kind};
 use crate::run::Summary;
+use crate::run::structure::TORN;
 
-/// Gap between neighbouring points from which a barrier counts as torn, cells: half a spacing of four points a cell.
-pub const TORN: f64 = 0.25;
 /// Share of the energy at release that may remain unaccounted for.
 pub const ENERGY: f64 = 0.02;
 

@@ -2,7 +2,8 @@
 
 use super::{Analysis, Point};
 use crate::check::{Check, Expected, Kind};
-use crate::validation::barrier::balances::{Balances, TORN, largest};
+use crate::run::structure::TORN;
+use crate::validation::barrier::balances::{Balances, largest};
 use crate::validation::barrier::records::LITERAL;
 use crate::validation::flume::runs::Run;
 
