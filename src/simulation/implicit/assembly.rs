@@ -30,9 +30,9 @@ impl ImplicitBody {
             &mut self.displacement,
             &mut self.force,
             &mut self.free,
-            &mut self.before,
-            &mut self.damped,
             &mut self.after,
+            &mut self.pulled,
+            &mut self.damped,
             &mut self.contact,
         ] {
             values.clear();
@@ -153,5 +153,6 @@ impl ImplicitBody {
             }
         }
         self.start.clone_from(&self.velocity);
+        self.internal.clone_from(&self.force);
     }
 }

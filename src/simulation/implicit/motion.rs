@@ -1,6 +1,6 @@
 //! A step of a body in implicit steps: before contact, and after.
 
-use super::ImplicitBody;
+use super::{ImplicitBody, THETA};
 use crate::body::Particle;
 use crate::boundary::Boundary;
 use crate::boundary::nodes::Tally;
@@ -12,15 +12,15 @@ impl ImplicitBody {
     /// Finds how the body would move without contact, and opens the nodes that other fields reach.
     pub fn predict(&mut self, field: &mut VelocityField, forces: BodyForces, dt: f64) {
         self.set_step(dt);
-        let Self { velocity, displacement, stiffness, force, free, before, damped, mass, clamped, .. } = self;
-        stiffness.multiply(displacement, before);
-        before.iter_mut().zip(force.iter()).for_each(|(b, f)| *b += f);
+        let Self { velocity, stiffness, internal, free, pulled, damped, mass, clamped, .. } = self;
+        stiffness.multiply(velocity, pulled);
         let share = (dt * forces.damping).min(1.0);
         for (node, m) in mass.iter().enumerate() {
             for d in 0..2 {
                 let i = 2 * node + d;
                 damped[i] = -share * m * velocity[i];
-                free[i] = m * (velocity[i] + dt * forces.gravity[d]) + damped[i] - dt * before[i];
+                let force = internal[i] + THETA * (1.0 - THETA) * dt * pulled[i];
+                free[i] = m * (velocity[i] + dt * forces.gravity[d]) + damped[i] - dt * force;
                 if clamped[node] {
                     free[i] = 0.0;
                 }
@@ -47,16 +47,19 @@ impl ImplicitBody {
                 new.iter_mut().zip(response).for_each(|(v, r)| *v += r * p);
             }
         }
-        for (d, v) in self.displacement.iter_mut().zip(&new) {
-            *d += dt * v;
+        let between = |old: f64, new: f64| (1.0 - THETA) * old + THETA * new;
+        for (d, (old, new)) in self.displacement.iter_mut().zip(self.velocity.iter().zip(&new)) {
+            *d += dt * between(*old, *new);
         }
-        // Force of the stresses at the end.
         let mut after = std::mem::take(&mut self.after);
         self.stiffness.multiply(&self.displacement, &mut after);
         after.iter_mut().zip(&self.force).for_each(|(a, f)| *a += f);
+        let before = &self.internal;
         let mean = |i: usize| 0.5 * (self.velocity[i] + new[i]);
-        let stored: f64 = (0..new.len()).map(|i| dt * new[i] * 0.5 * (self.before[i] + after[i])).sum();
-        let taken: f64 = after.iter().enumerate().map(|(i, f)| dt * f * mean(i)).sum();
+        let force = |i: usize| between(before[i], after[i]);
+        let travel = |i: usize| dt * between(self.velocity[i], new[i]);
+        let stored: f64 = (0..new.len()).map(|i| travel(i) * 0.5 * (before[i] + after[i])).sum();
+        let taken: f64 = (0..new.len()).map(|i| dt * force(i) * mean(i)).sum();
         for band in &mut field.bands {
             band.tallies.clear();
             band.tallies.resize(boundaries.len(), Tally::default());
@@ -83,7 +86,7 @@ impl ImplicitBody {
             }
             let impulse = [0, 1].map(|d| {
                 let i = 2 * node + d;
-                m * (new[i] - self.velocity[i]) - dt * (m * forces.gravity[d] - after[i]) - damped[d] - contact[i]
+                m * (new[i] - self.velocity[i]) - dt * (m * forces.gravity[d] - force(i)) - damped[d] - contact[i]
             });
             let number = band.first_node + at;
             if let Some(hold) = band.nodes.holds.iter().find(|h| h.node as usize == number) {
@@ -93,7 +96,7 @@ impl ImplicitBody {
             }
         }
         self.free = std::mem::replace(&mut self.velocity, new);
-        self.after = after;
+        self.after = std::mem::replace(&mut self.internal, after);
         field.drift = 2.0 * self.displacement.iter().fold(0.0f64, |a, d| a.max(d.abs()));
         self.move_points(field);
         let points = self.point_kinetic(field);
