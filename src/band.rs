@@ -1,8 +1,9 @@
 //! A band: the points of some neighbouring grid columns, and the nodes they reach.
 //!
-//! A band owns the nodes from its first column to the first column of the next band and solves their momentum balance. Its
-//! points reach a few columns further; what they add there is kept apart and handed to the next band, which adds it before its
-//! own. So no two bands write to one place, and sums are taken in the order of the bands whatever thread works on which.
+//! A band owns the nodes from its first column to the first column of the next band and solves their momentum balance.
+//! Its points reach a few columns further; what they add there is kept apart and handed to the next band, which adds it
+//! before its own. So no two bands write to one place, and sums are taken in the order of the bands whatever thread
+//! works on which.
 
 use crate::body::Points;
 use crate::boundary::nodes::{Hold, Tally};
@@ -35,8 +36,9 @@ impl NodeSum {
     }
 }
 
-/// Nodal fields within reach of a band. All but `mass`, `holds`, `shared` and `open` go on past the nodes that the band owns; `remapped` and
-/// `strain_velocity` end with one node more, so that the vectors that read and write three of them at a time may see a fourth.
+/// Nodal fields within reach of a band. All but `mass`, `holds`, `shared` and `open` go on past the nodes that the band
+/// owns; `remapped` and `strain_velocity` end with one node more, so that the vectors that read and write three of them
+/// at a time may see a fourth.
 #[derive(Debug, Clone, Default)]
 pub struct Nodes {
     /// What the band's points add.

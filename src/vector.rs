@@ -395,13 +395,14 @@ mod x86 {
                 let d = _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(rows[3]), rows[7]);
                 let (ab, cd) = (_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d));
                 let (ba, dc) = (_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d));
-                let low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
-                let high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+                // Blocks 0 and 2 of the first beside those of the second; then blocks 1 and 3.
+                const EVEN: i32 = 0b10_10_00_00;
+                const ODD: i32 = 0b11_11_01_01;
                 [
-                    _mm512_permutex2var_pd(ab, low, cd),
-                    _mm512_permutex2var_pd(ba, low, dc),
-                    _mm512_permutex2var_pd(ab, high, cd),
-                    _mm512_permutex2var_pd(ba, high, dc),
+                    _mm512_mask_shuffle_f64x2::<EVEN>(ab, 0b1100_1100, cd, cd),
+                    _mm512_mask_shuffle_f64x2::<EVEN>(ba, 0b1100_1100, dc, dc),
+                    _mm512_mask_shuffle_f64x2::<ODD>(cd, 0b0011_0011, ab, ab),
+                    _mm512_mask_shuffle_f64x2::<ODD>(dc, 0b0011_0011, ba, ba),
                 ]
             }
         }

@@ -1,7 +1,8 @@
 //! Rigid boundaries: planes, walls of finite height at any angle to the grid, and gates.
 //!
-//! A boundary acts on the nodes inside it: material may leave them but not press into them, and slides on them with Coulomb
-//! friction. A clamp holds material back as well, on the nodes nearest to its plane and behind it. [`Boundary`] is the geometry, [`nodes`] the law at a node.
+//! A boundary acts on the nodes inside it: material may leave them but not press into them, and slides on them with
+//! Coulomb friction. A clamp holds material back as well, on the nodes nearest to its plane and behind it. [`Boundary`]
+//! is the geometry, [`nodes`] the law at a node.
 
 pub mod nodes;
 
@@ -195,11 +196,11 @@ impl Boundary {
         }
     }
 
-    /// How the boundary holds a node at `x`, if it does. `tolerance` (m) decides what lies on a surface; `buried` says that the
-    /// node lies inside a plane, where walls continue below their foot.
+    /// How the boundary holds a node at `x`, if it does. `tolerance` (m) decides what lies on a surface; `buried` says
+    /// that the node lies inside a plane, where walls continue below their foot.
     ///
-    /// A boundary that has moved keeps its nodes until it has moved by half a cell (`spacing`, m): they carry its velocity, so a
-    /// small stroke acts at once, and a large one advances from node to node.
+    /// A boundary that has moved keeps its nodes until it has moved by half a cell (`spacing`, m): they carry its
+    /// velocity, so a small stroke acts at once, and a large one advances from node to node.
     pub fn hold(&self, x: [f64; 2], spacing: f64, tolerance: f64, buried: bool) -> Option<Contact> {
         let beyond = self.travel - (self.travel / spacing).map(f64::round) * spacing;
         let (d, s) = self.face_coordinates((Vector2::from(x) + beyond).into());
@@ -227,9 +228,10 @@ impl Boundary {
         Some(Contact { normal: normal.into(), along: s })
     }
 
-    /// How far in front of a plane nodes are held, m: those that lie on it. A body between a held and a free row of nodes bends from
-    /// the held one on, which, were only nodes behind the plane held, would lie half a cell behind it on the average of all places of
-    /// the grid. A clamp therefore holds the rows nearest to its plane; of two that are as near, the one behind.
+    /// How far in front of a plane nodes are held, m: those that lie on it. A body between a held and a free row of
+    /// nodes bends from the held one on, which, were only nodes behind the plane held, would lie half a cell behind it
+    /// on the average of all places of the grid. A clamp therefore holds the rows nearest to its plane; of two that are
+    /// as near, the one behind.
     fn reach(&self, spacing: f64, tolerance: f64) -> f64 {
         if self.friction == Friction::Bonded { 0.5 * spacing - tolerance } else { tolerance }
     }

@@ -1,9 +1,9 @@
 //! The contact law at a node.
 //!
-//! A boundary answers the motion that a node would have without it: an impulse along its normal that stops approach and never
-//! holds back (but for a clamp), and one along its face that stops sliding, limited by the friction coefficient times the normal impulse. A node
-//! held by several boundaries finds all impulses together by projected Gauss-Seidel iteration (Jean 1999), so that a corner is
-//! no special case.
+//! A boundary answers the motion that a node would have without it: an impulse along its normal that stops approach and
+//! never holds back (but for a clamp), and one along its face that stops sliding, limited by the friction coefficient
+//! times the normal impulse. A node held by several boundaries finds all impulses together by projected Gauss-Seidel
+//! iteration (Jean 1999), so that a corner is no special case.
 
 use super::{Boundary, Friction};
 use crate::grid::ActiveGrid;
@@ -162,11 +162,11 @@ impl Hold {
     }
 }
 
-/// Solves the contact of one node of mass `m` with all that holds it: `old` is the velocity before the step, `v` the velocity
-/// it would have, which is replaced. Adds to the tally of each boundary.
+/// Solves the contact of one node of mass `m` with all that holds it: `old` is the velocity before the step, `v` the
+/// velocity it would have, which is replaced. Adds to the tally of each boundary.
 ///
-/// Work is impulse times the mean of the velocities before and after the step, so that the works of all agents add up to the
-/// change of the node's kinetic energy exactly.
+/// Work is impulse times the mean of the velocities before and after the step, so that the works of all agents add up
+/// to the change of the node's kinetic energy exactly.
 pub fn solve(
     holds: &mut [Hold],
     boundaries: &[Boundary],
@@ -192,8 +192,8 @@ pub fn reset(holds: &mut [Hold]) {
     }
 }
 
-/// Brings the impulses of all holds of a node of mass `m` up to date with its velocity `v`, and the velocity with them; without
-/// friction, or with it.
+/// Brings the impulses of all holds of a node of mass `m` up to date with its velocity `v`, and the velocity with them;
+/// without friction, or with it.
 pub fn visit(holds: &mut [Hold], boundaries: &[Boundary], m: f64, v: &mut [f64; 2], with_friction: bool) {
     for _ in 0..if holds.len() > 1 { SWEEPS } else { 1 } {
         for hold in holds.iter_mut() {
@@ -206,8 +206,8 @@ pub fn visit(holds: &mut [Hold], boundaries: &[Boundary], m: f64, v: &mut [f64; 
     }
 }
 
-/// Adds what the holds of a node did in the step to the tallies of their boundaries; `mean` is the mean of the node's velocities
-/// before and after.
+/// Adds what the holds of a node did in the step to the tallies of their boundaries; `mean` is the mean of the node's
+/// velocities before and after.
 pub fn book(holds: &[Hold], mean: [f64; 2], tallies: &mut [Tally]) {
     for hold in holds.iter() {
         if hold.state != HoldState::Apart {
@@ -216,8 +216,8 @@ pub fn book(holds: &[Hold], mean: [f64; 2], tallies: &mut [Tally]) {
     }
 }
 
-/// Applies to a velocity what [`solve`] decided: nothing presses inwards, sticking nodes move with the boundary. For velocity
-/// fields that only strain the material, so no impulse is counted.
+/// Applies to a velocity what [`solve`] decided: nothing presses inwards, sticking nodes move with the boundary. For
+/// velocity fields that only strain the material, so no impulse is counted.
 pub fn project(holds: &[Hold], v: &mut [f64; 2]) {
     let sweeps = if holds.len() > 1 { 4 } else { 1 };
     for _ in 0..sweeps {

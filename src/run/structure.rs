@@ -9,8 +9,8 @@ use serde::Serialize;
 
 /// Length of the means behind "final" values, s.
 const FINAL_WINDOW: f64 = 0.3;
-/// Gap between neighbouring points, in cells, from which a barrier counts as torn: half their distance at the start with four
-/// points a cell, three quarters of it with nine.
+/// Gap between neighbouring points, in cells, from which a barrier counts as torn: half their distance at the start
+/// with four points a cell, three quarters of it with nine.
 pub const TORN: f64 = 0.25;
 /// Share of the forces that contact, clamp and inertia may miss each other by.
 const BALANCED: f64 = 1e-9;
@@ -20,10 +20,11 @@ const BALANCED: f64 = 1e-9;
 pub struct StructureResults {
     /// Height of the face above the foot, m.
     pub height_m: f64,
-    /// Largest of the samples of the contact force that are the first at or after whole multiples of 20 ms, N: what an archive of that interval
-    /// shows of the peak.
+    /// Largest of the samples of the contact force that are the first at or after whole multiples of 20 ms, N: what an
+    /// archive of that interval shows of the peak.
     pub peak_force_50hz_n: f64,
-    /// Share of the energy at release that was kinetic when the energies were first recorded after the flow arrived, up to 10 ms later.
+    /// Share of the energy at release that was kinetic when the energies were first recorded after the flow arrived, up
+    /// to 10 ms later.
     pub kinetic_at_arrival: f64,
     /// Share of the energy at release that was gone by that record.
     pub dissipated_at_arrival: f64,
@@ -47,7 +48,8 @@ pub struct StructureResults {
     pub clamp_normal_final_n: f64,
     /// Mean moment about the foot on the clamp over the last 0.3 s, N m.
     pub clamp_moment_final_n_m: f64,
-    /// Largest magnitude, over all samples, of contact force less clamp reaction and rate of momentum, over the sum of theirs.
+    /// Largest magnitude, over all samples, of contact force less clamp reaction and rate of momentum, over the sum of
+    /// theirs.
     pub imbalance_max: f64,
     /// Deepest that the domain of a point of the flow lay inside the barrier, m.
     pub penetration_max_m: f64,

@@ -1,30 +1,33 @@
 //! A stiff body in implicit steps, so that its waves do not shorten the time step of everything else.
 //!
-//! From sort to sort the body moves by the linear momentum balance of its own grid nodes, by the theta method (Jean 1999):
+//! From sort to sort the body moves by the linear momentum balance of its own grid nodes, by the theta method (Jean
+//! 1999):
 //!
 //! `M (w1 - w0) = dt (M g - f - K (theta d1 + (1 - theta) d0)) + J + R` with `d1 - d0 = dt (theta w1 + (1 - theta) w0)`,
 //!
-//! where M is the lumped mass, f the force of the stresses at the sort, K the elastic stiffness of the points where they were at the
-//! sort, d the displacement since then, J the impulses of contact and R those of clamps. Shape functions and points are those of
-//! everything else. A sort follows after half a cell of motion, so turns may be large although every piece between sorts is linear; what
-//! is neglected is the stiffness that stress itself gives.
+//! where M is the lumped mass, f the force of the stresses at the sort, K the elastic stiffness of the points where
+//! they were at the sort, d the displacement since then, J the impulses of contact and R those of clamps. Shape
+//! functions and points are those of everything else. A sort follows after half a cell of motion, so turns may be large
+//! although every piece between sorts is linear; what is neglected is the stiffness that stress itself gives.
 //!
-//! A swing of angular frequency w is damped by `(2 theta - 1) w dt/2` of critical, and a wave that is much too fast for the step keeps
-//! `(1 - theta)/theta` of its velocity from step to step. With theta = 1 (implicit Euler) a stiff barrier bends 1.5 % less than it should;
-//! with 1/2 nothing dies out, and contact, whose law holds at the end of a step, feeds waves until sand flies off. [`THETA`] lies between:
-//! a fifth of Euler's damping, and what cannot be followed is down to a percent after twelve steps. What it takes is measured.
+//! A swing of angular frequency w is damped by `(2 theta - 1) w dt/2` of critical, and a wave that is much too fast for
+//! the step keeps `(1 - theta)/theta` of its velocity from step to step. With theta = 1 (implicit Euler) a stiff
+//! barrier bends 1.5 % less than it should; with 1/2 nothing dies out, and contact, whose law holds at the end of a
+//! step, feeds waves until sand flies off. [`THETA`] lies between: a fifth of Euler's damping, and what cannot be
+//! followed is down to a percent after twelve steps. What it takes is measured.
 //!
-//! Contact and body are solved together by block Gauss-Seidel iteration (Jean 1999): contact is solved node by node as for any
-//! body, with the velocity that the node has under the latest impulses at all other nodes and a mass that is never more than the
-//! body shows at this node, until impulses no longer change: then body and contact law agree at every node. Where they do not,
-//! the ledger counts losses that no body has had, so that the energy does not close.
+//! Contact and body are solved together by block Gauss-Seidel iteration (Jean 1999): contact is solved node by node as
+//! for any body, with the velocity that the node has under the latest impulses at all other nodes and a mass that is
+//! never more than the body shows at this node, until impulses no longer change: then body and contact law agree at
+//! every node. Where they do not, the ledger counts losses that no body has had, so that the energy does not close.
 //!
-//! Beyond a face along the grid, uGIMP gives a node a weight w at its points and a gradient of the order of sqrt(w)/h: mass and stiffness
-//! of the node fall as w, the force of a stress as sqrt(w) only, and it moves at w^(-1/2) times the velocity of others (other functions
-//! and corners have other powers). Strains of its points need that motion; their velocities do not see it, but another body at the node does, and would be
-//! given energy that no point of this one has lost. Contact therefore leaves nodes out where the body has next to no mass
-//! ([`TOUCHABLE`]). The share is no derived number: 1e-4, 1e-3 and 1e-2 gave the same forces and energies within a percent, contact begins
-//! a few hundredths of a cell later. Explicit steps start each step from the points and forget such motion.
+//! Beyond a face along the grid, uGIMP gives a node a weight w at its points and a gradient of the order of sqrt(w)/h:
+//! mass and stiffness of the node fall as w, the force of a stress as sqrt(w) only, and it moves at w^(-1/2) times the
+//! velocity of others (other functions and corners have other powers). Strains of its points need that motion; their
+//! velocities do not see it, but another body at the node does, and would be given energy that no point of this one has
+//! lost. Contact therefore leaves nodes out where the body has next to no mass ([`TOUCHABLE`]). The share is no derived
+//! number: 1e-4, 1e-3 and 1e-2 gave the same forces and energies within a percent, contact begins a few hundredths of a
+//! cell later. Explicit steps start each step from the points and forget such motion.
 
 mod assembly;
 mod banded;
@@ -33,7 +36,8 @@ mod motion;
 use super::field::VelocityField;
 use banded::Banded;
 
-/// Most sweeps over the touched nodes in a step, and the change of velocity, as a share of the largest, at which they end.
+/// Most sweeps over the touched nodes in a step, and the change of velocity, as a share of the largest, at which they
+/// end.
 pub(super) const PASSES: usize = 1000;
 pub(super) const SETTLED: f64 = 1e-7;
 /// Weight of the end of a step in its forces and velocities.
@@ -244,7 +248,8 @@ impl ImplicitBody {
         }
     }
 
-    /// Velocity at the end of the step, under the impulses found so far, of the shared node that is the `i`-th touched one.
+    /// Velocity at the end of the step, under the impulses found so far, of the shared node that is the `i`-th touched
+    /// one.
     fn velocity_at(&self, i: usize) -> [f64; 2] {
         let (node, n) = (self.shared[self.touched[i]].node, self.touched.len());
         let mut v = [0, 1].map(|d| self.free.get(2 * node + d).copied().unwrap_or(0.0));
