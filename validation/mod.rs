@@ -105,6 +105,7 @@ pub const VALIDATIONS: &[Validation] = &[
     barrier::impact::VALIDATION,
     barrier::rigidity::VALIDATION,
     barrier::grids::VALIDATION,
+    barrier::steps::VALIDATION,
     barrier::density::VALIDATION,
     barrier::weight::VALIDATION,
     barrier::close_up::VALIDATION,

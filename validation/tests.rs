@@ -78,6 +78,7 @@ validations!(
     barrier_impact,
     barrier_rigidity,
     barrier_grids,
+    barrier_steps,
     barrier_density,
     barrier_weight,
     barrier_close_up,

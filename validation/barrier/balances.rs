@@ -3,6 +3,7 @@
 use crate::check::{Check, Kind};
 use crate::run::Summary;
 use crate::run::structure::TORN;
+use crate::validation::flume::runs::Run;
 
 /// Share of the energy at release that may remain unaccounted for.
 pub const ENERGY: f64 = 0.02;
@@ -31,6 +32,18 @@ impl Balances {
             penetration: summary.momentum.penetration_max_m / summary.case.grid.spacing_m,
             imbalance,
             gap: summary.structure.as_ref().map(|s| s.gap_max_cells),
+        }
+    }
+
+    /// Of many runs against barriers that are bodies, on cells of this size, m.
+    pub fn over<'a>(runs: impl Iterator<Item = &'a Run> + Clone, cell: impl Fn(&Run) -> f64) -> Self {
+        let worst = |name: &str| largest(runs.clone().map(|r| r.get(name)));
+        Self {
+            momentum: worst("momentum_closure_1"),
+            energy: worst("energy_residual_1"),
+            penetration: largest(runs.clone().map(|r| r.get("penetration_m") / cell(r))),
+            imbalance: Some(worst("imbalance_1")),
+            gap: Some(worst("gap_cells")),
         }
     }
 

@@ -1,9 +1,9 @@
-//! The parametric study of Ng, Wang, Choi, De Silva and Poudyal: the flume at 60 degrees against a vertical elastic barrier whose
-//! flexural rigidity spans six decades.
+//! The parametric study of Ng, Wang, Choi, De Silva and Poudyal: the flume at 60 degrees against a vertical elastic
+//! barrier whose flexural rigidity spans six decades.
 //!
-//! [`rigid`] predicts the limit of a rigid wall, [`impact`] judges what must hold at every moment; [`rigidity`], [`grids`],
-//! [`density`] and [`weight`] analyse studies of many runs, which [`records`] lists; [`close_up`] looks into four of the barriers; [`claims`] holds
-//! every claim of the paper against all of this.
+//! [`rigid`] predicts the limit of a rigid wall, [`impact`] judges what must hold at every moment; [`rigidity`],
+//! [`grids`], [`steps`], [`density`] and [`weight`] analyse studies of many runs, which [`records`] lists; [`close_up`]
+//! looks into four of the barriers; [`claims`] holds every claim of the paper against all of this.
 
 pub mod balances;
 pub mod beam;
@@ -15,6 +15,7 @@ pub mod impact;
 pub mod records;
 pub mod rigid;
 pub mod rigidity;
+pub mod steps;
 pub mod weight;
 
 use super::data;

@@ -41,8 +41,9 @@ pub const SCATTER: BarrierStudy = study!("barrier_scatter", "scatter", &["cell_m
 pub const FINE: BarrierStudy = study!("barrier_fine", "fine", &["stiffness_1"]);
 /// A rigid wall on two grids, moved and repacked.
 pub const RIGID: BarrierStudy = study!("barrier_rigid_wall", "rigid", &["cell_m"]);
-/// Explicit and implicit steps.
-pub const INTEGRATION: BarrierStudy = study!("barrier_integration", "integration", &["stiffness_1", "integration"]);
+/// Explicit and implicit steps, long ones and short ones.
+pub const INTEGRATION: BarrierStudy =
+    study!("barrier_integration", "integration", &["stiffness_1", "integration", "longest_step_s"]);
 /// Barriers of equal rigidity and other mass.
 pub const DENSITY: BarrierStudy = study!("barrier_density", "density", &["density_kg_per_m3", "stiffness_1"]);
 /// Barriers with and without their own weight.

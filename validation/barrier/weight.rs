@@ -1,7 +1,7 @@
 //! Does it matter that gravity is off on the barrier? The same barriers with and without their own weight.
 //!
-//! An upright cantilever that carries its own weight is softer against what bends it slowly by 1 - rho/rho_c, where rho_c is the density at which it would
-//! buckle (Greenhill 1881). What happens within milliseconds does not see that.
+//! An upright cantilever that carries its own weight is softer against what bends it slowly by 1 - rho/rho_c, where
+//! rho_c is the density at which it would buckle (Greenhill 1881). What happens within milliseconds does not see that.
 
 use super::records::{SCATTER, WEIGHT, barrier, height, on_study_cells, young_of_one};
 use crate::check::{Check, Expected, Kind, Tolerance};

@@ -3,7 +3,7 @@
 use super::{Analysis, Point};
 use crate::check::{Check, Expected, Kind};
 use crate::run::structure::TORN;
-use crate::validation::barrier::balances::{Balances, largest};
+use crate::validation::barrier::balances::Balances;
 use crate::validation::barrier::records::LITERAL;
 use crate::validation::flume::runs::Run;
 
@@ -18,14 +18,7 @@ pub fn rank_correlation(values: &[f64]) -> f64 {
 /// The checks of runs on cells of this size, m.
 pub(super) fn checks(analysis: &Analysis, cell: f64) -> Vec<Check> {
     let all: Vec<&Run> = analysis.releases.iter().flat_map(|(_, points)| points.iter().map(|p| &p.run)).collect();
-    let worst = |name: &str| largest(all.iter().map(|r| r.get(name)));
-    let balances = Balances {
-        momentum: worst("momentum_closure_1"),
-        energy: worst("energy_residual_1"),
-        penetration: worst("penetration_m") / cell,
-        imbalance: Some(worst("imbalance_1")),
-        gap: None,
-    };
+    let balances = Balances { gap: None, ..Balances::over(all.iter().copied(), |_| cell) };
     let source = "ledgers and gauges of all runs";
     let mut checks = balances.checks("", source);
     // The softest barrier lies down under the fast flow of the literal release and tears at the clamp; the table says so.
