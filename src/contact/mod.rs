@@ -12,6 +12,7 @@
 //!
 //! Everything here is a function of what a node or a few points know; nothing imports the grid.
 
+mod boxes;
 pub mod node;
 pub mod normal;
 pub mod outline;

@@ -4,6 +4,7 @@
 //! along as the body moves and bends, so the surface is known to a fraction of the distance between points, and a barrier many
 //! cells thick has a definite front and back. The surface lies half a point's extent outside of the ring, round at corners.
 
+use super::boxes::Segments;
 use super::{Vector, direction, dot, minus};
 use std::collections::BTreeMap;
 
@@ -115,10 +116,7 @@ pub fn nearest(ring: &[Vector], radius: f64, x: Vector) -> Option<Nearest> {
     Some(Nearest { distance: distance - radius, normal, foot })
 }
 
-/// Segments per box of [`Surface`].
-const RUN: usize = 8;
-
-/// A ring of positions prepared for many questions near it: runs of segments in boxes, so that most are never looked at.
+/// A ring of positions prepared for many questions near it.
 ///
 /// Inside or outside is decided by the side of the nearest segment (at a corner, of both of its segments), which holds for
 /// bodies at least two points thick.
@@ -127,7 +125,7 @@ pub struct Surface {
     /// Half extent of the points, m.
     pub radius: f64,
     ring: Vec<Vector>,
-    boxes: Vec<[Vector; 2]>,
+    segments: Segments,
 }
 
 impl Surface {
@@ -140,48 +138,14 @@ impl Surface {
     pub fn follow(&mut self, places: impl Iterator<Item = Vector>) {
         self.ring.clear();
         self.ring.extend(places);
-        self.boxes.clear();
-        let n = self.ring.len();
-        for start in (0..n).step_by(RUN) {
-            let ends = (start..=(start + RUN).min(n)).map(|k| self.ring[k % n]);
-            let around = ends.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], x| {
-                [[low[0].min(x[0]), low[1].min(x[1])], [high[0].max(x[0]), high[1].max(x[1])]]
-            });
-            self.boxes.push(around);
-        }
+        self.segments.follow(&self.ring);
     }
 
     /// Where `x` lies. None for a ring without points.
     pub fn nearest(&self, x: Vector) -> Option<Nearest> {
         let n = self.ring.len();
-        let mut best = (f64::INFINITY, [0.0; 2], 0, 0.0);
-        let look = |run: usize, best: &mut (f64, Vector, usize, f64)| {
-            for k in run * RUN..((run + 1) * RUN).min(n) {
-                let (foot, along, share) = foot_on(self.ring[k], self.ring[(k + 1) % n], x);
-                let r = minus(x, foot);
-                let square = dot(r, r);
-                if square < best.0 && dot(along, along) > 0.0 {
-                    *best = (square, foot, k, share);
-                }
-            }
-        };
-        let to_box = |b: &[Vector; 2]| {
-            let outside = |d: usize| (b[0][d] - x[d]).max(x[d] - b[1][d]).max(0.0);
-            let r = [outside(0), outside(1)];
-            dot(r, r)
-        };
-        // The nearest box first; it rules out most of the others.
-        let first = (0..self.boxes.len()).min_by(|&a, &b| to_box(&self.boxes[a]).total_cmp(&to_box(&self.boxes[b])))?;
-        look(first, &mut best);
-        for (run, around) in self.boxes.iter().enumerate() {
-            if run != first && to_box(around) < best.0 {
-                look(run, &mut best);
-            }
-        }
-        let (square, foot, k, share) = best;
-        if !square.is_finite() {
-            return None;
-        }
+        let k = self.segments.nearest(x)?;
+        let (foot, _, share) = foot_on(self.ring[k], self.ring[(k + 1) % n], x);
         let face = |k: usize| {
             let along = minus(self.ring[(k + 1) % n], self.ring[k % n]);
             direction([along[1], -along[0]], 0.0).unwrap_or_default()
@@ -193,6 +157,7 @@ impl Surface {
             () => own,
         };
         let r = minus(x, foot);
+        let square = dot(r, r);
         let side = if dot(r, out) < 0.0 { -1.0 } else { 1.0 };
         // Close to the ring the direction to it is noise.
         let normal = match direction(r, 1e-6 * self.radius) {
@@ -208,7 +173,7 @@ fn sum(a: Vector, b: Vector) -> Vector {
 }
 
 /// The place of a segment nearest to `x`, the segment's direction (not of unit length), and how far along it the place is.
-fn foot_on(from: Vector, to: Vector, x: Vector) -> (Vector, Vector, f64) {
+pub(super) fn foot_on(from: Vector, to: Vector, x: Vector) -> (Vector, Vector, f64) {
     let along = minus(to, from);
     let length2 = dot(along, along);
     let share = if length2 > 0.0 { (dot(minus(x, from), along) / length2).clamp(0.0, 1.0) } else { 0.0 };

@@ -6,7 +6,7 @@ use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Hold};
 use crate::grid::ActiveGrid;
 use crate::layout::{Departed, SortRules, Sorter};
-use crate::momentum;
+use crate::momentum::{self, BodyForces};
 
 /// A velocity field of the grid. Bodies that share one stick together where they meet.
 #[derive(Debug, Clone, Default)]
@@ -56,6 +56,12 @@ impl VelocityField {
     pub fn find_holds(&mut self, boundaries: &[Boundary]) {
         nodes::find_holds(boundaries, &self.members, &self.grid, &mut self.holds);
         momentum::distribute_holds(&self.holds, boundaries.len(), &mut self.bands);
+    }
+
+    /// What acts on every one of its nodes, of what acts on all fields.
+    pub fn forces(&self, common: BodyForces) -> BodyForces {
+        let weightless = self.bodies.iter().all(|b| b.weightless);
+        BodyForces { gravity: if weightless { [0.0; 2] } else { common.gravity }, ..common }
     }
 
     /// All points with the index of their body in the simulation.

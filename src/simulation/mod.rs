@@ -1,5 +1,6 @@
 //! The simulation: bodies, grid and clock. [`Simulation::step`] is the algorithm.
 
+use crate::band::Band;
 use crate::body::Body;
 use crate::boundary::Boundary;
 use crate::boundary::nodes::Tally;
@@ -23,6 +24,7 @@ mod field;
 mod implicit;
 mod scene;
 mod stages;
+mod stretch;
 mod sweep;
 
 pub use coupling::ContactPoint;
@@ -49,6 +51,8 @@ pub struct Simulation {
     heavy: f64,
 
     fields: Vec<VelocityField>,
+    /// Where the bands of each field are during a sweep.
+    bands: Vec<Vec<Band>>,
     coupling: Coupling,
     implicit: Vec<ImplicitBody>,
     speeds: Vec<f64>,
@@ -103,6 +107,7 @@ impl Simulation {
             implicit: implicit::bodies(&fields),
             bodies,
             boundaries,
+            bands: vec![Vec::new(); fields.len()],
             fields,
             time: 0.0,
             steps: 0,
@@ -139,14 +144,22 @@ impl Simulation {
         self.close_step(dt)
     }
 
-    /// Does stages of a step on all fields.
+    /// Does stages of a step on all fields but those of bodies in implicit steps.
     fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64) {
-        for k in 0..self.fields.len() {
-            if self.implicit.iter().any(|b| b.field == k) {
-                continue;
+        // The bands leave their fields, which all threads read, for as long as they are worked on.
+        let mut bands = std::mem::take(&mut self.bands);
+        self.swap_bands(&mut bands);
+        let step = self.begin(dt);
+        sweep::sweep(stages, &mut bands, &|&stage, k, before, band| step.run(stage, &self.fields[k], before, band));
+        self.swap_bands(&mut bands);
+        self.bands = bands;
+    }
+
+    fn swap_bands(&mut self, bands: &mut [Vec<Band>]) {
+        for (k, (field, bands)) in self.fields.iter_mut().zip(bands).enumerate() {
+            if !self.implicit.iter().any(|b| b.field == k) {
+                std::mem::swap(&mut field.bands, bands);
             }
-            let (step, bands) = self.begin(k, dt);
-            sweep::sweep(stages, bands, &|&stage, before, band| step.run(stage, before, band));
         }
     }
 

@@ -6,7 +6,6 @@ use super::{AccelerationField, Scheme, Simulation};
 use crate::band::{Band, BandSums, NodeSum};
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
-use crate::grid::ActiveGrid;
 use crate::momentum::{self, BodyForces};
 use crate::shape::ShapeFunction;
 use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
@@ -57,8 +56,6 @@ impl Scheme {
 
 /// What the stages of one step have in common.
 pub(super) struct Step<'a> {
-    grid: &'a ActiveGrid,
-    bodies: &'a [Body],
     boundaries: &'a [Boundary],
     shape: ShapeFunction,
     forces: BodyForces,
@@ -72,21 +69,16 @@ pub(super) struct Step<'a> {
 impl Simulation {
     /// What acts on every node of a velocity field.
     pub(super) fn forces_on(&self, field: usize) -> BodyForces {
-        let weightless = self.fields[field].bodies.iter().all(|b| b.weightless);
-        BodyForces { gravity: if weightless { [0.0; 2] } else { self.forces.gravity }, ..self.forces }
+        self.fields[field].forces(self.forces)
     }
 
-    /// The step of `dt` seconds that begins now for one velocity field, and the bands to do it on.
-    pub(super) fn begin(&mut self, field: usize, dt: f64) -> (Step<'_>, &mut [Band]) {
-        let forces = self.forces_on(field);
-        let VelocityField { bodies, bands, grid, .. } = &mut self.fields[field];
+    /// The step of `dt` seconds that begins now.
+    pub(super) fn begin(&self, dt: f64) -> Step<'_> {
         let scheme = self.numerics.scheme;
-        let step = Step {
-            grid,
-            bodies,
+        Step {
             boundaries: &self.boundaries,
             shape: self.numerics.shape,
-            forces,
+            forces: self.forces,
             field: self.field.as_ref(),
             side_friction: self.side_friction,
             time: self.time,
@@ -97,51 +89,52 @@ impl Simulation {
                 move_now: scheme == Scheme::Usf,
             },
             stress: StressUpdate { dt, move_after: scheme != Scheme::Usf },
-        };
-        (step, bands)
+        }
     }
 }
 
 impl Step<'_> {
-    /// Does one stage on one band, given the band before it.
-    pub(super) fn run(&self, stage: Stage, before: Option<&mut Band>, band: &mut Band) {
+    /// Does one stage on one band of a velocity field, given the band before it.
+    pub(super) fn run(&self, stage: Stage, of: &VelocityField, before: Option<&mut Band>, band: &mut Band) {
         match stage {
-            Stage::PointsToGrid(what) => self.points_to_grid(what, band),
+            Stage::PointsToGrid(what) => self.points_to_grid(what, of, band),
             Stage::OldVelocities => momentum::old_velocities(before, band),
-            Stage::Momentum => momentum::balance(before, band, self.boundaries, self.forces, self.velocity.dt),
-            Stage::GridToPoints => self.grid_to_points(band),
+            Stage::Momentum => {
+                momentum::balance(before, band, self.boundaries, of.forces(self.forces), self.velocity.dt);
+            }
+            Stage::GridToPoints => self.grid_to_points(of, band),
             Stage::RemappedVelocities => momentum::remapped_velocities(before, band),
-            Stage::Stress => self.update_stress(band),
+            Stage::Stress => self.update_stress(of, band),
         }
     }
 
-    fn points_to_grid(&self, what: Scatter, band: &mut Band) {
-        let map = NodeMap::new(self.grid, band.first_node);
+    fn points_to_grid(&self, what: Scatter, of: &VelocityField, band: &mut Band) {
+        let map = NodeMap::new(&of.grid, band.first_node);
         let nodes = &mut band.nodes;
         if what != Scatter::Force {
             nodes.sums.fill(NodeSum::default());
         }
-        for (body, points) in self.bodies.iter().zip(&band.points) {
+        for (body, points) in of.bodies.iter().zip(&band.points) {
             let constants = constants(body, self.side_friction);
             transfer::scatter(what, self.half_width(body), &map, constants, points, &mut nodes.sums);
         }
         let Some(AccelerationField(field)) = self.field.filter(|_| what != Scatter::Inertia) else { return };
         nodes.field_force.clear();
         nodes.field_force.resize(nodes.sums.len(), [0.0; 2]);
-        for (body, points) in self.bodies.iter().zip(&band.points) {
+        for (body, points) in of.bodies.iter().zip(&band.points) {
             let at = |p: &Particle| field(p, self.time);
             transfer::scatter_field(self.half_width(body), &map, body.point_mass, &at, points, &mut nodes.field_force);
         }
     }
 
-    fn grid_to_points(&self, band: &mut Band) {
-        let map = NodeMap::new(self.grid, band.first_node);
+    fn grid_to_points(&self, of: &VelocityField, band: &mut Band) {
+        let map = NodeMap::new(&of.grid, band.first_node);
         let nodes = &mut band.nodes;
         if self.velocity.remap {
             nodes.remapped.fill([0.0; 2]);
         }
         let mut sums = BandSums::default();
-        for (body, points) in self.bodies.iter().zip(&mut band.points) {
+        for (body, points) in of.bodies.iter().zip(&mut band.points) {
             let (l, c) = (self.half_width(body), constants(body, 0.0));
             let part = transfer::gather_velocity(l, &map, c, self.velocity, &nodes.motion, points, &mut nodes.remapped);
             sums.kinetic += part.kinetic;
@@ -154,11 +147,11 @@ impl Step<'_> {
         band.sums = sums;
     }
 
-    fn update_stress(&self, band: &mut Band) {
-        let map = NodeMap::new(self.grid, band.first_node);
+    fn update_stress(&self, of: &VelocityField, band: &mut Band) {
+        let map = NodeMap::new(&of.grid, band.first_node);
         let velocity = &band.nodes.strain_velocity;
         let (mut work, mut smallest) = (0.0, f64::INFINITY);
-        for (body, points) in self.bodies.iter().zip(&mut band.points) {
+        for (body, points) in of.bodies.iter().zip(&mut band.points) {
             let (l, c) = (self.half_width(body), constants(body, 0.0));
             let part = transfer::update_stress(l, body.law, &map, c, self.stress, velocity, points);
             work += part.internal_work;

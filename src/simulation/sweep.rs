@@ -6,7 +6,11 @@
 //!
 //! Several threads take a part each, and sweep it as far as it does not depend on a neighbouring part; what is left around the
 //! seams follows. Which band is worked on when makes no difference to the numbers, so neither does the number of parts.
+//!
+//! The bands of several fields are swept as one list, so that the fields do not wait for each other. Bands that meet in the list
+//! and belong to different fields do not depend on each other; that a seam there waits all the same does no harm.
 
+use super::stretch::Stretch;
 use crate::band::Band;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -36,54 +40,57 @@ fn left_of_seam<S>(stages: &[(On, S)]) -> usize {
     (0..stages.len()).map(|k| lag(stages, k) + usize::from(stages[k].0 == On::Nodes)).max().unwrap_or(0)
 }
 
-/// Does all stages on all bands; `work` does one of them on one band. Node stages are given the band before it as well.
+/// Does all stages on all bands of all fields; `work` does one of them on one band, and is told the number of the field. Node
+/// stages are given the band before it as well.
 pub fn sweep<S: Sync>(
     stages: &[(On, S)],
-    bands: &mut [Band],
-    work: &(impl Fn(&S, Option<&mut Band>, &mut Band) + Sync),
+    fields: &mut [Vec<Band>],
+    work: &(impl Fn(&S, usize, Option<&mut Band>, &mut Band) + Sync),
 ) {
     let threads = rayon::current_num_threads();
     let longest = left_of_seam(stages);
-    let parts = threads.min(bands.len() / PART_BANDS.max(2 * longest)).min(MAX_PARTS);
+    let bands: usize = fields.iter().map(Vec::len).sum();
+    let parts = threads.min(bands / PART_BANDS.max(2 * longest)).min(MAX_PARTS);
     if parts < 2 {
-        return part(stages, bands, [false; 2], work);
+        return part(stages, &mut Stretch::new(fields), [false; 2], work);
     }
     // Parts of about as many points each.
-    let points: usize = bands.iter().map(Band::len).sum();
+    let loads = || fields.iter().flatten().map(Band::len);
+    let (points, mut loads) = (loads().sum::<usize>(), loads());
     let mut seams = [0; MAX_PARTS];
     let (mut seen, mut band) = (0, 0);
     for (k, seam) in seams[..parts - 1].iter_mut().enumerate() {
         let least = band + 2 * longest;
-        let most = bands.len() - (parts - 1 - k) * 2 * longest;
+        let most = bands - (parts - 1 - k) * 2 * longest;
         while band < most && (band < least || seen * parts < points * (k + 1)) {
-            seen += bands[band].len();
+            seen += loads.next().unwrap_or(0);
             band += 1;
         }
         *seam = band;
     }
-    let seams = &seams[..parts - 1];
-    parts_between(stages, bands, seams, 0, [false; 2], work);
-    around_seams(stages, bands, seams, 0, longest, work);
+    let (seams, mut all) = (&seams[..parts - 1], Stretch::new(fields));
+    parts_between(stages, &mut all, seams, 0, [false; 2], work);
+    around_seams(stages, &mut all, seams, 0, longest, work);
 }
 
 /// Sweeps the parts between seams side by side. `first` is the number of the first of `bands`; `open` says whether other parts
 /// lie before and after them.
 fn parts_between<S: Sync>(
     stages: &[(On, S)],
-    bands: &mut [Band],
+    bands: &mut Stretch,
     seams: &[usize],
     first: usize,
     open: [bool; 2],
-    work: &(impl Fn(&S, Option<&mut Band>, &mut Band) + Sync),
+    work: &(impl Fn(&S, usize, Option<&mut Band>, &mut Band) + Sync),
 ) {
     let Some(&seam) = seams.get(seams.len() / 2) else {
         return part(stages, bands, open, work);
     };
-    let (before, after) = bands.split_at_mut(seam - first);
+    let (mut before, mut after) = bands.split_at(seam - first);
     let (seams_before, seams_after) = (&seams[..seams.len() / 2], &seams[seams.len() / 2 + 1..]);
     together(
-        || parts_between(stages, before, seams_before, first, [open[0], true], work),
-        || parts_between(stages, after, seams_after, seam, [true, open[1]], work),
+        || parts_between(stages, &mut before, seams_before, first, [open[0], true], work),
+        || parts_between(stages, &mut after, seams_after, seam, [true, open[1]], work),
     );
 }
 
@@ -110,9 +117,15 @@ pub fn together(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
 }
 
 /// Sweeps one part as far as it does not depend on what lies beyond its open ends.
-fn part<S>(stages: &[(On, S)], bands: &mut [Band], open: [bool; 2], work: &impl Fn(&S, Option<&mut Band>, &mut Band)) {
+fn part<S>(
+    stages: &[(On, S)],
+    bands: &mut Stretch,
+    open: [bool; 2],
+    work: &impl Fn(&S, usize, Option<&mut Band>, &mut Band),
+) {
+    let count = bands.len();
     let longest = stages.len().checked_sub(1).map_or(0, |last| lag(stages, last));
-    for front in 0..bands.len() + longest {
+    for front in 0..count + longest {
         for (number, (on, stage)) in stages.iter().enumerate() {
             let lag = lag(stages, number);
             let low = match (open[0], on) {
@@ -120,7 +133,7 @@ fn part<S>(stages: &[(On, S)], bands: &mut [Band], open: [bool; 2], work: &impl 
                 (true, On::Points) => lag,
                 (true, On::Nodes) => lag + 1,
             };
-            let high = if open[1] { bands.len() - lag } else { bands.len() };
+            let high = if open[1] { count - lag } else { count };
             if let Some(k) = front.checked_sub(lag).filter(|k| (low..high).contains(k)) {
                 at(bands, k, stage, work);
             }
@@ -131,20 +144,20 @@ fn part<S>(stages: &[(On, S)], bands: &mut [Band], open: [bool; 2], work: &impl 
 /// Does what the parts have left on either side of each seam.
 fn around_seams<S: Sync>(
     stages: &[(On, S)],
-    bands: &mut [Band],
+    bands: &mut Stretch,
     seams: &[usize],
     first: usize,
     longest: usize,
-    work: &(impl Fn(&S, Option<&mut Band>, &mut Band) + Sync),
+    work: &(impl Fn(&S, usize, Option<&mut Band>, &mut Band) + Sync),
 ) {
     let middle = seams.len() / 2;
     let Some(&seam) = seams.get(middle) else { return };
     if seams.len() > 1 {
         let start = seam - longest;
-        let (before, after) = bands.split_at_mut(start - first);
+        let (mut before, mut after) = bands.split_at(start - first);
         together(
-            || around_seams(stages, before, &seams[..middle], first, longest, work),
-            || around_seams(stages, after, &seams[middle..], start, longest, work),
+            || around_seams(stages, &mut before, &seams[..middle], first, longest, work),
+            || around_seams(stages, &mut after, &seams[middle..], start, longest, work),
         );
         return;
     }
@@ -154,11 +167,11 @@ fn around_seams<S: Sync>(
         match on {
             On::Nodes => (seam - lag..=seam + lag).for_each(|k| at(bands, k, stage, work)),
             On::Points if lag > 0 => {
-                let (before, after) = bands[seam - lag..seam + lag].split_at_mut(lag);
+                let (mut before, mut after) = bands.split_at(seam);
                 // In two halves although it is little, so that no thread falls asleep in between.
                 together(
-                    || before.iter_mut().for_each(|band| work(stage, None, band)),
-                    || after.iter_mut().for_each(|band| work(stage, None, band)),
+                    || (seam - lag..seam).for_each(|k| at(&mut before, k, stage, work)),
+                    || (0..lag).for_each(|k| at(&mut after, k, stage, work)),
                 );
             }
             On::Points => {}
@@ -166,9 +179,9 @@ fn around_seams<S: Sync>(
     }
 }
 
-fn at<S>(bands: &mut [Band], k: usize, stage: &S, work: &impl Fn(&S, Option<&mut Band>, &mut Band)) {
-    let (before, rest) = bands.split_at_mut(k);
-    work(stage, before.last_mut(), &mut rest[0]);
+fn at<S>(bands: &mut Stretch, k: usize, stage: &S, work: &impl Fn(&S, usize, Option<&mut Band>, &mut Band)) {
+    let (field, before, band) = bands.at(k);
+    work(stage, field, before, band);
 }
 
 #[cfg(test)]
@@ -180,26 +193,28 @@ mod tests {
     const STAGES: &[(On, usize)] =
         &[(On::Points, 0), (On::Nodes, 1), (On::Points, 2), (On::Nodes, 3), (On::Points, 4), (On::Points, 5)];
 
-    /// Runs one sweep, or several with a part of the stages each, on `bands` bands with `threads` threads and checks that every
-    /// stage finds done what it needs. `load` gives the points of a band.
-    fn check(bands: usize, threads: usize, sweeps: &[&[(On, usize)]], load: fn(usize, usize) -> usize) {
-        let band = |k: usize| {
+    /// Runs one sweep, or several with a part of the stages each, on fields of so many bands with `threads` threads and checks
+    /// that every stage finds done what it needs. `load` gives the points of a band, of so many in all.
+    fn check(fields: &[usize], threads: usize, sweeps: &[&[(On, usize)]], load: fn(usize, usize) -> usize) {
+        let (mut number, count) = (0, fields.iter().sum());
+        let mut band = |k: usize| {
             let mut points = Points::default();
-            points.resize(load(k, bands));
+            points.resize(load(number, count));
+            number += 1;
             Band { first_node: k, points: vec![points], ..Band::default() }
         };
-        let mut all: Vec<Band> = (0..bands).map(band).collect();
-        let done = Mutex::new(vec![[false; 6]; bands]);
+        let mut all: Vec<Vec<Band>> = fields.iter().map(|&bands| (0..bands).map(&mut band).collect()).collect();
+        let done = Mutex::new(fields.iter().map(|&bands| vec![[false; 6]; bands]).collect::<Vec<_>>());
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let work = |&stage: &usize, before: Option<&mut Band>, band: &mut Band| {
+            let work = |&stage: &usize, field: usize, before: Option<&mut Band>, band: &mut Band| {
                 let k = band.first_node;
                 if STAGES[stage].0 == On::Nodes {
                     assert_eq!(before.map(|b| b.first_node), k.checked_sub(1), "the band before {k}");
                 }
-                let mut done = done.lock().expect("no panic before");
+                let done = &mut done.lock().expect("no panic before")[field];
                 let around =
-                    if STAGES[stage].0 == On::Nodes { k.saturating_sub(1)..k + 1 } else { k..(k + 2).min(bands) };
+                    if STAGES[stage].0 == On::Nodes { k.saturating_sub(1)..k + 1 } else { k..(k + 2).min(done.len()) };
                 for j in around {
                     let earlier = if STAGES[stage].0 == On::Points && j > k {
                         // Of the next band, the node stages only.
@@ -207,27 +222,41 @@ mod tests {
                     } else {
                         (0..stage).all(|s| done[j][s])
                     };
-                    assert!(earlier, "stage {stage} on band {k} comes before band {j} is ready");
+                    assert!(earlier, "stage {stage} on band {k} of field {field} comes before band {j} is ready");
                 }
-                assert!(!done[k][stage], "stage {stage} twice on band {k}");
+                assert!(!done[k][stage], "stage {stage} twice on band {k} of field {field}");
                 done[k][stage] = true;
             };
             sweeps.iter().for_each(|stages| sweep(stages, &mut all, &work));
         });
-        assert!(done.lock().expect("no panic").iter().flatten().all(|&d| d), "{bands} bands, {threads} threads");
+        let done = done.into_inner().expect("no panic");
+        assert!(done.iter().flatten().flatten().all(|&d| d), "{fields:?} bands, {threads} threads");
     }
 
     #[test]
     fn every_stage_is_done_once_and_in_order() {
         let parts: Vec<_> = STAGES.split_inclusive(|(on, _)| *on == On::Nodes).collect();
-        for threads in 1..=5 {
-            for bands in [0, 1, 2, 3, 5, 11, 12, 13, 30, 47] {
+        let single = [0, 1, 2, 3, 5, 11, 12, 13, 30, 47].map(|bands| vec![bands]);
+        let several: [&[usize]; 10] = [
+            &[0, 0],
+            &[1, 1],
+            &[20, 11],
+            &[0, 30, 0],
+            &[1, 40, 1],
+            &[24, 0, 24],
+            &[9, 1, 0, 1, 9],
+            &[1; 24],
+            &[7, 5, 13, 2, 30],
+            &[],
+        ];
+        for fields in single.iter().map(Vec::as_slice).chain(several) {
+            for threads in 1..=5 {
                 // No points, as many in each band, all at one end.
                 for load in
                     [|_, _| 0, |_, _| 9, |k, _| if k == 0 { 99 } else { 0 }, |k, n| if k + 1 == n { 99 } else { 0 }]
                 {
-                    check(bands, threads, &[STAGES], load);
-                    check(bands, threads, &parts, load);
+                    check(fields, threads, &[STAGES], load);
+                    check(fields, threads, &parts, load);
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! Outlines of lattices, and distances from them.
 
-use crate::contact::outline::{Nearest, Outline, Surface, nearest, penetration};
+use crate::contact::boxes::Segments;
+use crate::contact::outline::{Nearest, Outline, Surface, foot_on, nearest, penetration};
 use crate::contact::{Vector, dot, minus};
 
 const S: f64 = 0.05;
@@ -137,6 +138,49 @@ fn boxes_find_what_a_full_search_finds() {
             let apart = minus(a.foot, b.foot);
             let turned = minus(a.normal, b.normal);
             assert!(dot(apart, apart) > 1e-12 || dot(turned, turned) < 1e-18, "{x:?} {a:?} {b:?}");
+        }
+    }
+}
+
+#[test]
+fn segments_in_boxes_are_found_as_by_looking_at_all_of_them() {
+    // Rings up to three levels of boxes deep around a crooked star, some of whose points coincide, and places on all sides.
+    let noise = |k: usize| (libm::sin(12.9898 * k as f64) * 43758.5453).rem_euclid(1.0);
+    for n in [1, 2, 7, 8, 9, 64, 65, 440, 513, 1200] {
+        let ring: Vec<Vector> = (0..n)
+            .map(|k| {
+                let (k, t) = (k / 2 * 2, std::f64::consts::TAU * k as f64 / n as f64);
+                let r = 0.5 + 0.3 * libm::sin(5.0 * t) + 0.02 * noise(k);
+                if k % 5 == 0 { [r, 0.1] } else { [r * libm::cos(t), r * libm::sin(t)] }
+            })
+            .collect();
+        let mut segments = Segments::default();
+        segments.follow(&ring);
+        for k in 0..2000 {
+            let x = if k < n { ring[k] } else { [3.0 * noise(2 * k) - 1.5, 3.0 * noise(2 * k + 1) - 1.5] };
+            let to_segment = |k: usize| {
+                let (foot, along, _) = foot_on(ring[k], ring[(k + 1) % n], x);
+                let r = minus(x, foot);
+                if dot(along, along) > 0.0 { dot(r, r) } else { f64::INFINITY }
+            };
+            let to_box = |run: usize| {
+                let ends = || (8 * run..=(8 * run + 8).min(n)).map(|k| ring[k % n]);
+                let outside = |d: usize| {
+                    let low = ends().map(|e| e[d]).fold(f64::INFINITY, f64::min);
+                    let high = ends().map(|e| e[d]).fold(f64::NEG_INFINITY, f64::max);
+                    (low - x[d]).max(x[d] - high).max(0.0)
+                };
+                outside(0) * outside(0) + outside(1) * outside(1)
+            };
+            let runs = 0..n.div_ceil(8);
+            let first = runs.min_by(|&a, &b| to_box(a).total_cmp(&to_box(b))).expect("a run");
+            let (mut best, mut nearest) = (f64::INFINITY, None);
+            for k in (8 * first..(8 * first + 8).min(n)).chain(0..n) {
+                if to_segment(k) < best {
+                    (best, nearest) = (to_segment(k), Some(k));
+                }
+            }
+            assert_eq!(segments.nearest(x), nearest, "{n} points, {x:?}");
         }
     }
 }
