@@ -39,7 +39,8 @@ pub struct StructureSample {
     pub clamp_moment: f64,
     /// Rate of the barrier's momentum.
     pub inertia: Components,
-    /// Magnitude of contact and weight less clamp and inertia, over the sum of their magnitudes: round-off.
+    /// Magnitude of contact and weight less clamp and inertia, over the sum of their magnitudes: round-off. Of order one, and
+    /// without meaning, where all of them are round-off of the momentum.
     pub imbalance: f64,
     /// How it bends.
     pub bend: Bend,
