@@ -49,8 +49,7 @@ const WAYS: [(Way, &str); 4] = [
 /// Cell size of all runs, m.
 const CELL: f64 = 0.02;
 
-/// What equal steps may differ by, percent: as in the unit test of an impact on a wall, where explicit steps miss a few
-/// percent of the energy.
+/// What equal steps may differ by, percent: as in the unit test of an impact on a wall.
 const EQUAL: f64 = 2.0;
 /// What steps of the sand's own length may be off by, percent: as in the unit test of an impact on a stiff wall.
 const LENGTH: f64 = 8.0;

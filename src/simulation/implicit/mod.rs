@@ -12,7 +12,7 @@
 //!
 //! A swing of angular frequency w is damped by `(2 theta - 1) w dt/2` of critical, and a wave that is much too fast for
 //! the step keeps `(1 - theta)/theta` of its velocity from step to step. With theta = 1 (implicit Euler) a stiff
-//! barrier bends 1.5 % less than it should; with 1/2 nothing dies out, and contact, whose law holds at the end of a
+//! barrier bends 1 to 2 % less; with 1/2 nothing dies out, and contact, whose law holds at the end of a
 //! step, feeds waves until sand flies off. [`THETA`] lies between: a fifth of Euler's damping, and what cannot be
 //! followed is down to a percent after twelve steps. What it takes is measured.
 //!
