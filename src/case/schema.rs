@@ -132,6 +132,8 @@ pub struct Body {
     /// Velocity at the start, m/s, \[x, y\]. Default zero.
     #[serde(default)]
     pub velocity_m_per_s: [f64; 2],
+    /// Particles of this body per grid cell: 1, 4, 9 or 16. Default that of the grid.
+    pub particles_per_cell: Option<u32>,
     /// Largest displacement of a particle from its lattice, in either direction and at random, as a share of the lattice's
     /// spacing, in \[0, 0.5\]. Default 0; another packing says how much a result owes to the lattice.
     #[serde(default)]
@@ -338,24 +340,28 @@ impl Gravity {
     }
 }
 
-impl Grid {
-    /// Distance between neighbouring particles at the start, m.
-    pub fn particle_spacing_m(&self) -> f64 {
-        self.spacing_m / f64::from(self.particles_per_cell).sqrt()
-    }
-}
-
 impl Body {
     /// Length and height of the rectangle, m.
     pub fn size_m(&self) -> [f64; 2] {
         [self.x_m[1] - self.x_m[0], self.y_m[1] - self.y_m[0]]
     }
 
-    /// Particles along the length and the height of the rectangle, for this particle spacing, as whole numbers. Kept as
-    /// floats because a mistyped case may ask for more than an integer holds.
-    pub fn particle_counts(&self, particle_spacing_m: f64) -> [f64; 2] {
+    /// Particles per grid cell.
+    pub fn particles_per_cell(&self, grid: &Grid) -> u32 {
+        self.particles_per_cell.unwrap_or(grid.particles_per_cell)
+    }
+
+    /// Distance between neighbouring particles at the start, m.
+    pub fn particle_spacing_m(&self, grid: &Grid) -> f64 {
+        grid.spacing_m / f64::from(self.particles_per_cell(grid)).sqrt()
+    }
+
+    /// Particles along the length and the height of the rectangle as whole numbers. Kept as floats because a mistyped case
+    /// may ask for more than an integer holds.
+    pub fn particle_counts(&self, grid: &Grid) -> [f64; 2] {
+        let spacing = self.particle_spacing_m(grid);
         // Points at (i + 1/2) s inside the length L: i + 1/2 <= L/s, with room for rounding.
-        self.size_m().map(|length| (length / particle_spacing_m + 0.5 + 1.0e-9).floor().max(0.0))
+        self.size_m().map(|length| (length / spacing + 0.5 + 1.0e-9).floor().max(0.0))
     }
 }
 
@@ -378,15 +384,9 @@ impl Case {
         toml::to_string(self)
     }
 
-    /// Distance between neighbouring particles at the start, m.
-    pub fn particle_spacing_m(&self) -> f64 {
-        self.grid.particle_spacing_m()
-    }
-
     /// Number of particles at the start.
     pub fn particle_count_estimate(&self) -> f64 {
-        let spacing = self.particle_spacing_m();
-        self.bodies.iter().map(|body| body.particle_counts(spacing)).map(|[nx, ny]| nx * ny).sum()
+        self.bodies.iter().map(|body| body.particle_counts(&self.grid)).map(|[nx, ny]| nx * ny).sum()
     }
 
     /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`.

@@ -468,6 +468,6 @@ pub struct PeakProfile {
 fn structure(case: &Case, simulation: &Simulation, name: &str) -> Option<StructureGauge> {
     let (body, face) = (scene::index(case, name)?, scene::barrier_face(case, name)?);
     let b = &case.bodies[body];
-    let counts = b.particle_counts(case.particle_spacing_m()).map(|n| n as usize);
+    let counts = b.particle_counts(&case.grid).map(|n| n as usize);
     Some(StructureGauge::new(simulation, body, face, counts, b.rotation_deg.to_radians()))
 }

@@ -34,9 +34,9 @@ pub fn gravity(case: &Case, angle_deg: f64) -> [f64; 2] {
 
 fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
     let material = &case.materials[&b.material];
-    let spacing = case.particle_spacing_m();
+    let spacing = b.particle_spacing_m(&case.grid);
     let volume = spacing * spacing * case.grid.thickness_m;
-    let [nx, ny] = b.particle_counts(spacing);
+    let [nx, ny] = b.particle_counts(&case.grid);
     let (sin, cos) = (libm::sin(b.rotation_deg.to_radians()), libm::cos(b.rotation_deg.to_radians()));
     let mut particles = Vec::with_capacity((nx * ny) as usize);
     for i in 0..nx as usize {
@@ -54,7 +54,7 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
         law: law(material),
         point_mass: material.density_kg_per_m3 * volume,
         point_volume: volume,
-        points_per_direction: f64::from(case.grid.particles_per_cell).sqrt().round() as usize,
+        points_per_direction: f64::from(b.particles_per_cell(&case.grid)).sqrt().round() as usize,
         point_spacing: spacing,
         weightless: b.weightless,
         between_side_walls: case.side_walls.act_on(&b.name),
@@ -203,5 +203,27 @@ fn numerics(case: &Case) -> Numerics {
             case::Pic::FractionPerStep(fraction) => PicShare::Fraction(fraction),
             case::Pic::RatePerSecond(rate) => PicShare::Rate(rate),
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_body_may_have_more_particles_a_cell_than_the_grid_says() {
+        let text = include_str!("../../validation/barrier/60deg.toml");
+        let finer = text.replacen("name = \"barrier\"", "name = \"barrier\"\nparticles_per_cell = 16", 1);
+        let cases = [text, &finer].map(|t| case::parse(t, "60deg.toml").expect("a case").case);
+        let counts =
+            cases.each_ref().map(|c| build(c).bodies.into_iter().map(|b| (b.1.len(), b.0)).collect::<Vec<_>>());
+        let [(sand, _), (barrier, of_grid)] = &counts[0][..] else { panic!("two bodies") };
+        let [(same, _), (more, of_body)] = &counts[1][..] else { panic!("two bodies") };
+        // 0.2 m x 0.5 m and 0.1 m x 0.64 m in cells of 10 mm.
+        assert_eq!((sand, same, barrier, more), (&9000, &9000, &5760, &10240));
+        assert_eq!((of_grid.points_per_direction, of_body.points_per_direction), (3, 4));
+        let mass = |n: usize, b: &Body| n as f64 * b.point_mass;
+        assert!((mass(*more, of_body) / mass(*barrier, of_grid) - 1.0).abs() < 1e-12);
+        assert_eq!(cases[1].particle_count_estimate(), 19240.0);
     }
 }

@@ -59,14 +59,14 @@ fn swing(cell: f64, offset: [f64; 2], modulus: f64, context: &mut Context) -> Re
     case.contacts.clear();
     case.bodies[0].weightless = false;
     let depth = case.bodies[0].size_m()[0];
-    let counts = case.bodies[0].particle_counts(case.particle_spacing_m());
+    let counts = case.bodies[0].particle_counts(&case.grid);
     // A beam of the true modulus; the fault is in what is simulated.
     let m = &case.materials["barrier"];
     let elastic = Elastic { young: m.young_pa, poisson: m.poisson };
     let beam =
         Cantilever { elastic, density: m.density_kg_per_m3, length: height, depth, width: case.grid.thickness_m };
     let per_acceleration = beam.density * depth * beam.width;
-    let top = height - 0.5 * case.particle_spacing_m();
+    let top = height - 0.5 * case.bodies[0].particle_spacing_m(&case.grid);
     let acceleration = DEFLECTION / beam.under_load(per_acceleration, top);
     // Gravity against the normal of the face, which is turned from the x axis as the barrier is, points into the barrier.
     let inclination = case.bodies[0].rotation_deg - 90.0;

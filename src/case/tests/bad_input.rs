@@ -35,6 +35,7 @@ const VALUES_OUT_OF_RANGE: &[Bad] = &[
     ("dilatancy_angle_deg = 0", "dilatancy_angle_deg = 32", "= 32", &["<= friction_angle_deg = 31", "use 0"]),
     ("cohesion_pa = 0", "cohesion_pa = -5", "= -5", &["cohesion_pa = -5", "cohesion_pa >= 0"]),
     ("per_cell = 4", "per_cell = 5", "per_cell = 5", &["particles_per_cell = 5", "1, 4, 9 or 16", "use 4"]),
+    ("mass_kg = 30", "particles_per_cell = 5", "per_cell = 5", &["bodies[0].particles_per_cell = 5", "use 4"]),
     ("x_m = [-0.4, 1.8]", "x_m = [1.8, -0.4]", "[1.8, -0.4]", &["swap the two: x_m = [-0.4, 1.8]"]),
     ("x_m = [-0.2, 0.0]", "x_m = [-0.2, -0.2]", "[-0.2, -0.2]", &["bodies[0].x_m", "low < high"]),
     ("cfl = 0.3", "cfl = 1.5", "cfl = 1.5", &["0 < cfl <= 1"]), ("pic_fraction = 5.0e-4", "pic_fraction = 2", "pic_fraction = 2", &["0 <= pic_fraction <= 1"]),

@@ -30,7 +30,7 @@ fn flume_cases_load_without_warnings() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/flume/{name}.toml"));
         let loaded = load(&path).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(loaded.warnings, Vec::<String>::new());
-        assert_eq!(loaded.case.particle_spacing_m(), 0.005);
+        assert_eq!(loaded.case.bodies[0].particle_spacing_m(&loaded.case.grid), 0.005);
         assert_eq!(loaded.case.particle_count_estimate(), 4000.0);
     }
     let [steep, flat] = ["40deg", "23deg"].map(|name| {

@@ -26,6 +26,9 @@ impl Checker<'_> {
             self.interval(&at.key("x_m"), body.x_m);
             self.interval(&at.key("y_m"), body.y_m);
             self.angle(&at.key("rotation_deg"), body.rotation_deg, 360.0);
+            if let Some(count) = body.particles_per_cell {
+                self.particles_per_cell(&at, count);
+            }
             if !(0.0..=0.5).contains(&body.jitter) {
                 let allowed = "0 to 0.5: beyond half a spacing, neighbours change places";
                 self.not_allowed(&at.key("jitter"), &body.jitter, allowed, "use 0.2, or leave it out");

@@ -8,8 +8,7 @@ use crate::case::schema::{Body, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS};
 impl Checker<'_> {
     pub(super) fn cost(&mut self) {
         let parts = ["grid", "domain", "bodies", "materials"].map(KeyPath::top);
-        let particles = self.case.grid.particles_per_cell;
-        if self.is_clean(&parts[0]) && particles > 0 {
+        if self.is_clean(&parts[0]) && self.case.grid.particles_per_cell > 0 {
             self.particles();
             // An interval of the domain that is wrong is reported by itself, and so is what follows from it.
             if self.is_clean(&parts[1]) {
@@ -22,10 +21,12 @@ impl Checker<'_> {
     }
 
     fn particles(&mut self) {
-        let (case, spacing) = (self.case, self.case.particle_spacing_m());
-        for (index, body) in case.bodies.iter().enumerate().filter(|(_, body)| has_geometry(body)) {
+        let case = self.case;
+        let counted = |body: &Body| has_geometry(body) && body.particles_per_cell(&case.grid) > 0;
+        for (index, body) in case.bodies.iter().enumerate().filter(|(_, body)| counted(body)) {
             let at = KeyPath::top("bodies").index(index);
-            let [along, across] = body.particle_counts(spacing);
+            let spacing = body.particle_spacing_m(&case.grid);
+            let [along, across] = body.particle_counts(&case.grid);
             for (key, edges, count) in [("x_m", body.x_m, along), ("y_m", body.y_m, across)] {
                 if count == 0.0 {
                     let what = format!("body `{}` holds no particle", body.name);
@@ -42,16 +43,16 @@ impl Checker<'_> {
         let (case, domain) = (self.case, &self.case.domain);
         let bodies = || case.bodies.iter().filter(|body| has_geometry(body));
         let spacing = case.grid.spacing_m;
-        let particles: f64 = bodies()
-            .map(|body| body.particle_counts(case.particle_spacing_m()))
-            .map(|[along, across]| along * across)
-            .sum();
-        let bodies_area: f64 = bodies().map(Body::size_m).map(|[length, height]| length * height).sum();
+        let particles: f64 =
+            bodies().map(|body| body.particle_counts(&case.grid)).map(|[along, across]| along * across).sum();
         let domain_area = (domain.x_m[1] - domain.x_m[0]) * (domain.y_m[1] - domain.y_m[0]);
         let cells = domain_area / spacing.powi(2);
 
-        let per_cell = f64::from(case.grid.particles_per_cell);
-        let for_particles = rounded_up((bodies_area * per_cell / MAX_PARTICLES).sqrt());
+        let weighted_area: f64 = bodies()
+            .map(|body| (body.size_m(), f64::from(body.particles_per_cell(&case.grid))))
+            .map(|([length, height], per_cell)| length * height * per_cell)
+            .sum();
+        let for_particles = rounded_up((weighted_area / MAX_PARTICLES).sqrt());
         let for_cells = rounded_up((domain_area / MAX_GRID_CELLS).sqrt());
         let both = for_particles.max(for_cells);
         for (count, of_what, limit, smallest) in [

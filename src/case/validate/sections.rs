@@ -48,16 +48,21 @@ impl Checker<'_> {
             let allowed = "at most one spacing_m from 0: all nodes follow from one";
             self.not_allowed(&at.key("origin_m"), &grid.origin_m, allowed, "give the place of the node next to [0, 0]");
         }
-        if ![1, 4, 9, 16].contains(&grid.particles_per_cell) {
-            let path = at.key("particles_per_cell");
-            self.not_allowed(&path, &grid.particles_per_cell, "1, 4, 9 or 16: squares of 1 to 4", "use 4");
-        }
+        self.particles_per_cell(&at, grid.particles_per_cell);
         let at = KeyPath::top("domain");
         self.interval(&at.key("x_m"), domain.x_m);
         self.interval(&at.key("y_m"), domain.y_m);
         let (at, walls) = (KeyPath::top("side_walls"), &self.case.side_walls);
         self.not_negative(&at.key("friction"), walls.friction, 0.0);
         self.names_of_bodies(&at.key("bodies"), walls.bodies.as_deref());
+    }
+
+    /// Particles per cell of the grid, or of the body at `at`.
+    pub(super) fn particles_per_cell(&mut self, at: &KeyPath, count: u32) {
+        if ![1, 4, 9, 16].contains(&count) {
+            let path = at.key("particles_per_cell");
+            self.not_allowed(&path, &count, "1, 4, 9 or 16: squares of 1 to 4", "use 4");
+        }
     }
 
     fn stages(&mut self) {
