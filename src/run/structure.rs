@@ -14,6 +14,8 @@ const FINAL_WINDOW: f64 = 0.3;
 pub const TORN: f64 = 0.25;
 /// Share of the forces that contact, clamp and inertia may miss each other by.
 const BALANCED: f64 = 1e-9;
+/// Share of the largest forces on the barrier below which those of a sample are round-off of its momentum.
+const UNLOADED: f64 = 1e-9;
 
 /// A barrier that is a body: how it bends, what its clamp carries, whether it holds together.
 #[derive(Debug, Clone, Serialize)]
@@ -49,7 +51,7 @@ pub struct StructureResults {
     /// Mean moment about the foot on the clamp over the last 0.3 s, N m.
     pub clamp_moment_final_n_m: f64,
     /// Largest magnitude, over all samples, of contact force less clamp reaction and rate of momentum, over the sum of
-    /// theirs.
+    /// theirs. Samples in which these forces are less than a billionth of the run's largest are left out.
     pub imbalance_max: f64,
     /// Deepest that the domain of a point of the flow lay inside the barrier, m.
     pub penetration_max_m: f64,
@@ -73,6 +75,7 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Stru
         sum / count
     };
     let largest = |value: fn(&StructureSample) -> f64| samples.iter().map(|(_, s)| value(s)).fold(0.0, f64::max);
+    let loaded = UNLOADED * largest(StructureSample::magnitude);
     let peak = &experiment.peak_profile().points;
     let bent = peak.iter().fold((0.0, 0.0), |a, p| if p.deflection > a.0 { (p.deflection, p.height) } else { a });
     let widest = samples.iter().fold(&samples[0], |a, b| if b.1.bend.gap > a.1.bend.gap { b } else { a });
@@ -97,7 +100,11 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Stru
         peak_clamp_force_step_time_s: clamp.time,
         clamp_normal_final_n: mean(|s| s.clamp.normal),
         clamp_moment_final_n_m: mean(|s| s.clamp_moment),
-        imbalance_max: largest(|s| s.imbalance),
+        imbalance_max: samples
+            .iter()
+            .filter(|(_, s)| s.magnitude() >= loaded)
+            .map(|(_, s)| s.imbalance)
+            .fold(0.0, f64::max),
         penetration_max_m: largest(|s| s.survey.penetration),
         gap_max_cells: widest.1.bend.gap,
         gap_max_time_s: widest.0,

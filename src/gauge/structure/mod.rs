@@ -28,6 +28,12 @@ pub struct Components {
     pub tangential: f64,
 }
 
+impl Components {
+    fn magnitude(&self) -> f64 {
+        self.normal.hypot(self.tangential)
+    }
+}
+
 /// One sample; forces are means over the interval.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StructureSample {
@@ -40,12 +46,19 @@ pub struct StructureSample {
     /// Rate of the barrier's momentum.
     pub inertia: Components,
     /// Magnitude of contact and weight less clamp and inertia, over the sum of their magnitudes: round-off. Of order one, and
-    /// without meaning, where all of them are round-off of the momentum.
+    /// without meaning, where all of them are round-off of the momentum; see [`Self::magnitude`].
     pub imbalance: f64,
     /// How it bends.
     pub bend: Bend,
     /// The material beside it.
     pub survey: Survey,
+}
+
+impl StructureSample {
+    /// Sum of the magnitudes of contact, clamp and inertia, N.
+    pub fn magnitude(&self) -> f64 {
+        self.contact.magnitude() + self.clamp.magnitude() + self.inertia.magnitude()
+    }
 }
 
 /// Reads a body that is a barrier: a rectangle of points, numbered along its height first, then across its thickness.

@@ -34,6 +34,7 @@ impl ImplicitBody {
             &mut self.pulled,
             &mut self.damped,
             &mut self.contact,
+            &mut self.caught,
         ] {
             values.clear();
             values.resize(n, 0.0);
@@ -153,6 +154,13 @@ impl ImplicitBody {
             }
         }
         self.start.clone_from(&self.velocity);
+        // A clamp holds from the first moment on.
+        for node in (0..self.mass.len()).filter(|&k| self.clamped[k]) {
+            for i in [2 * node, 2 * node + 1] {
+                self.velocity[i] = 0.0;
+                self.caught[i] = momentum[i];
+            }
+        }
         self.internal.clone_from(&self.force);
     }
 }

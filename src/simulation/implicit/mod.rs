@@ -94,8 +94,10 @@ pub(super) struct ImplicitBody {
     dt: f64,
     velocity: Vec<f64>,
     displacement: Vec<f64>,
-    /// Velocity at the sort, m/s.
+    /// Velocity at the sort as the points give it, m/s.
     start: Vec<f64>,
+    /// Momentum that the points gave clamped nodes at the sort and that the clamp has still to answer for, N s.
+    caught: Vec<f64>,
     /// Velocity at the end of the step without contact, m/s.
     free: Vec<f64>,
     /// Stiffness times velocity, N/s.

@@ -86,7 +86,8 @@ impl ImplicitBody {
             }
             let impulse = [0, 1].map(|d| {
                 let i = 2 * node + d;
-                m * (new[i] - self.velocity[i]) - dt * (m * forces.gravity[d] - force(i)) - damped[d] - contact[i]
+                let gained = m * (new[i] - self.velocity[i]) - self.caught[i];
+                gained - dt * (m * forces.gravity[d] - force(i)) - damped[d] - contact[i]
             });
             let number = band.first_node + at;
             if let Some(hold) = band.nodes.holds.iter().find(|h| h.node as usize == number) {
@@ -95,6 +96,7 @@ impl ImplicitBody {
                 band.tallies[hold.boundary as usize].add(&tally);
             }
         }
+        self.caught.fill(0.0);
         self.free = std::mem::replace(&mut self.velocity, new);
         self.after = std::mem::replace(&mut self.internal, after);
         field.drift = 2.0 * self.displacement.iter().fold(0.0f64, |a, d| a.max(d.abs()));
