@@ -129,6 +129,7 @@ pub const STUDIES: &[(&str, RecordedRows)] = &[
     ("barrier/runs/fine.csv", || barrier::records::FINE.record.rows()),
     ("barrier/runs/rigid.csv", || barrier::records::RIGID.record.rows()),
     ("barrier/runs/integration.csv", || barrier::records::INTEGRATION.record.rows()),
+    ("barrier/runs/short_steps.csv", || barrier::records::SHORT_STEPS.record.rows()),
     ("barrier/runs/density.csv", || barrier::records::DENSITY.record.rows()),
     ("barrier/runs/weight.csv", || barrier::records::WEIGHT.record.rows()),
     ("barrier/runs/scatter_calibrated.csv", || barrier::records::SCATTER_CALIBRATED.record.rows()),

@@ -10,11 +10,13 @@ use serde::Serialize;
 /// Length of the means behind "final" values, s.
 const FINAL_WINDOW: f64 = 0.3;
 /// Gap between neighbouring points, in cells, from which a barrier counts as torn: half their distance at the start
-/// with four points a cell, three quarters of it with nine.
+/// with four points a cell, three quarters of it with nine, all of it with sixteen. In cells, because points hold together by the
+/// nodes that they share.
 pub const TORN: f64 = 0.25;
 /// Share of the forces that contact, clamp and inertia may miss each other by.
 const BALANCED: f64 = 1e-9;
-/// Share of the largest forces on the barrier below which those of a sample are round-off of its momentum.
+/// Share of the largest forces on the barrier below which those of a sample are left out of their balance: round-off of its momentum, and
+/// more than that, so that what is left out is always next to nothing.
 const UNLOADED: f64 = 1e-9;
 
 /// A barrier that is a body: how it bends, what its clamp carries, whether it holds together.
@@ -75,7 +77,6 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Stru
         sum / count
     };
     let largest = |value: fn(&StructureSample) -> f64| samples.iter().map(|(_, s)| value(s)).fold(0.0, f64::max);
-    let loaded = UNLOADED * largest(StructureSample::magnitude);
     let peak = &experiment.peak_profile().points;
     let bent = peak.iter().fold((0.0, 0.0), |a, p| if p.deflection > a.0 { (p.deflection, p.height) } else { a });
     let widest = samples.iter().fold(&samples[0], |a, b| if b.1.bend.gap > a.1.bend.gap { b } else { a });
@@ -100,17 +101,22 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Stru
         peak_clamp_force_step_time_s: clamp.time,
         clamp_normal_final_n: mean(|s| s.clamp.normal),
         clamp_moment_final_n_m: mean(|s| s.clamp_moment),
-        imbalance_max: samples
-            .iter()
-            .filter(|(_, s)| s.magnitude() >= loaded)
-            .map(|(_, s)| s.imbalance)
-            .fold(0.0, f64::max),
+        imbalance_max: imbalance(samples),
         penetration_max_m: largest(|s| s.survey.penetration),
         gap_max_cells: widest.1.bend.gap,
         gap_max_time_s: widest.0,
         gap_max_height_m: widest.1.bend.gap_at,
         torn: widest.1.bend.gap >= TORN,
     })
+}
+
+/// Largest imbalance of the samples in which forces act.
+fn imbalance(samples: &[(f64, StructureSample)]) -> f64 {
+    let least = UNLOADED * samples.iter().map(|(_, s)| s.magnitude()).fold(0.0, f64::max);
+    let unloaded = |s: &StructureSample| s.magnitude() < least;
+    let loaded = samples.iter().filter(|(_, s)| !unloaded(s)).map(|(_, s)| s.imbalance);
+    // What is not a number stays.
+    loaded.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
 }
 
 impl StructureResults {
@@ -128,5 +134,25 @@ impl StructureResults {
                 self.imbalance_max
             ));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_balance_of_forces_is_that_of_samples_with_forces() {
+        let sample = |normal: f64, imbalance: f64| {
+            let mut s = StructureSample { imbalance, ..StructureSample::default() };
+            (s.contact.normal, s.clamp.normal, s.inertia.tangential) = (3.0 * normal, normal, normal);
+            (0.0, s)
+        };
+        assert_eq!(sample(-2.0, 0.0).1.magnitude(), 10.0);
+        // A billionth of the largest counts, less does not.
+        assert_eq!(imbalance(&[sample(1000.0, 1e-12), sample(1.1e-6, 1e-3), sample(0.9e-6, 1.0)]), 1e-3);
+        assert_eq!(imbalance(&[sample(1000.0, 1e-12), sample(0.0, 1.0)]), 1e-12);
+        assert!(imbalance(&[sample(1000.0, f64::NAN), sample(1000.0, 1e-12)]).is_nan());
+        assert!(imbalance(&[sample(f64::NAN, f64::NAN), sample(1000.0, 1e-12)]).is_nan());
     }
 }

@@ -44,6 +44,9 @@ pub const RIGID: BarrierStudy = study!("barrier_rigid_wall", "rigid", &["cell_m"
 /// Explicit and implicit steps, long ones and short ones.
 pub const INTEGRATION: BarrierStudy =
     study!("barrier_integration", "integration", &["stiffness_1", "integration", "longest_step_s"]);
+/// The stiffest of them in steps that are shorter still.
+pub const SHORT_STEPS: BarrierStudy =
+    study!("barrier_short_steps", "short_steps", &["stiffness_1", "integration", "longest_step_s"]);
 /// Barriers of equal rigidity and other mass.
 pub const DENSITY: BarrierStudy = study!("barrier_density", "density", &["density_kg_per_m3", "stiffness_1"]);
 /// Barriers with and without their own weight.
@@ -60,7 +63,8 @@ pub const CALIBRATED: &str = "60deg_calibrated";
 pub const STUDY_CELL: &str = "0.01";
 
 /// All of them.
-pub const ALL: [BarrierStudy; 8] = [RIGIDITY, SCATTER, SCATTER_CALIBRATED, FINE, RIGID, INTEGRATION, DENSITY, WEIGHT];
+pub const ALL: [BarrierStudy; 9] =
+    [RIGIDITY, SCATTER, SCATTER_CALIBRATED, FINE, RIGID, INTEGRATION, SHORT_STEPS, DENSITY, WEIGHT];
 
 /// The cases: name and text.
 pub const CASES: [(&str, &str); 4] = [

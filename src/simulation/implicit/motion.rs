@@ -108,7 +108,8 @@ impl ImplicitBody {
         let sums = &mut field.bands[0].sums;
         sums.internal_work = stored;
         sums.kinetic = points;
-        // What implicit steps take, and the energy of ripples that nodes have and points do not see, which comes and goes.
+        // What implicit steps take; the energy of ripples that nodes have and points do not see, which comes and goes; and what a
+        // clamp takes of the nodes that it stops at a sort (in explicit steps that is work of the clamp).
         sums.pic_loss = taken - stored + (unseen - self.unseen);
         sums.max_speed = fastest;
         self.unseen = unseen;

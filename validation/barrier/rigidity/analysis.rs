@@ -41,7 +41,7 @@ pub fn analyse(context: &mut Context) -> Result<Analysis, Failure> {
         let release = usize::from(run.case != LITERAL);
         let mut peaks = peaks(repeated[release].iter().filter(|(n, _)| *n == stiffness).map(|(_, r)| r));
         if peaks.count == 0 {
-            // A single run is taken to scatter as much as those that were repeated.
+            // A single run is taken to scatter as much as those that were repeated; so is that of the softest, on finer points.
             let mean = run.get("peak_20ms_n");
             peaks = Scatter { mean, deviation: typical[release] * mean, count: 1 };
         }

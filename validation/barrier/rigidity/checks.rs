@@ -2,9 +2,7 @@
 
 use super::{Analysis, Point};
 use crate::check::{Check, Expected, Kind};
-use crate::run::structure::TORN;
 use crate::validation::barrier::balances::Balances;
-use crate::validation::barrier::records::LITERAL;
 use crate::validation::flume::runs::Run;
 
 /// Spearman's rank correlation of values with their places; without ties.
@@ -18,19 +16,7 @@ pub fn rank_correlation(values: &[f64]) -> f64 {
 /// The checks of runs on cells of this size, m.
 pub(super) fn checks(analysis: &Analysis, cell: f64) -> Vec<Check> {
     let all: Vec<&Run> = analysis.releases.iter().flat_map(|(_, points)| points.iter().map(|p| &p.run)).collect();
-    let balances = Balances { gap: None, ..Balances::over(all.iter().copied(), |_| cell) };
-    let source = "ledgers and gauges of all runs";
-    let mut checks = balances.checks("", source);
-    // The softest barrier lies down under the fast flow of the literal release and tears at the clamp; the table says so.
-    let softest = |p: &&Point| p.run.case == LITERAL && p.stiffness == analysis.releases[0].1[0].stiffness;
-    let held = analysis.releases.iter().flat_map(|(_, points)| points).filter(|p| !softest(p));
-    let torn =
-        held.filter(|p| p.run.get("gap_cells").partial_cmp(&TORN) != Some(std::cmp::Ordering::Less)).count() as f64;
-    checks.push(
-        Check::at_most("barriers that tore, but for the softest under the literal release", torn, 0.0, "1")
-            .because("a gap of a quarter of a cell between points")
-            .from(Kind::Conservation, source),
-    );
+    let mut checks = Balances::over(all.iter().copied(), |_| cell).checks("", "ledgers and gauges of all runs");
     for (release, points) in &analysis.releases {
         let at = |p: &Point| p.run.get("front_velocity_m_per_s");
         let (low, high) =

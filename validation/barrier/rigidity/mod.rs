@@ -10,7 +10,8 @@ mod threshold;
 pub use analysis::{Analysis, Point, analyse, front};
 pub use threshold::{crossing, negligible, plateau};
 
-use super::records::RIGIDITY;
+use super::balances::Balances;
+use super::records::{RIGIDITY, SCATTER_CALIBRATED};
 use crate::validation::{Context, Failure, Validation};
 use crate::verification::Outcome;
 
@@ -28,6 +29,10 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let analysis = analyse(context)?;
     let cell = RIGIDITY.first_case()?.grid.spacing_m;
     let mut outcome = Outcome { checks: checks::checks(&analysis, cell), ..Outcome::default() };
+    // Those of the literal release are judged with the grids.
+    let repeated = SCATTER_CALIBRATED.rows(context)?;
+    let moved = Balances::over(repeated.iter(), |r| r.set["cell_m"].parse().unwrap_or(f64::NAN));
+    outcome.checks.extend(moved.checks("calibrated, moved grids: ", "ledgers and gauges of all runs"));
     outcome.tables.push(("barrier_rigidity_runs".into(), table::table(&analysis)?));
     outcome.tables.push(("barrier_rigidity_threshold".into(), threshold::table(&analysis)?));
     Ok(outcome)
