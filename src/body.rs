@@ -14,8 +14,6 @@ pub struct Block {
     pub x: [Lane; 2],
     /// Velocity, m/s.
     pub v: [Lane; 2],
-    /// Displacement of the current step, m: applied when the stress has been updated.
-    pub dx: [Lane; 2],
     /// Cauchy stress xx, yy, zz, xy in Pa, tension positive.
     pub stress: [Lane; 4],
     /// Current over reference volume, J.
@@ -24,8 +22,6 @@ pub struct Block {
     pub opened: Lane,
     /// Equivalent plastic shear strain, see [`PointState::plastic_shear`].
     pub plastic_shear: Lane,
-    /// Number of the point within its body, unchanged by sorting.
-    pub id: [u32; LANES],
 }
 
 impl Default for Block {
@@ -34,12 +30,10 @@ impl Default for Block {
         Self {
             x: [ZERO; 2],
             v: [ZERO; 2],
-            dx: [ZERO; 2],
             stress: [ZERO; 4],
             volume_ratio: [1.0; LANES],
             opened: ZERO,
             plastic_shear: ZERO,
-            id: [u32::MAX; LANES],
         }
     }
 }
@@ -72,11 +66,11 @@ impl Particle {
 }
 
 impl Block {
-    /// Reads one lane.
+    /// Reads one lane, the point of this number.
     #[inline]
-    pub fn get(&self, l: usize) -> Particle {
+    pub fn get(&self, l: usize, id: u32) -> Particle {
         Particle {
-            id: self.id[l],
+            id,
             x: [self.x[0][l], self.x[1][l]],
             v: [self.v[0][l], self.v[1][l]],
             state: PointState {
@@ -94,13 +88,12 @@ impl Block {
         }
     }
 
-    /// Writes one lane.
+    /// Writes one lane; the number of the point is kept elsewhere.
     #[inline]
     pub fn set(&mut self, l: usize, p: &Particle) {
         for d in 0..2 {
             self.x[d][l] = p.x[d];
             self.v[d][l] = p.v[d];
-            self.dx[d][l] = 0.0;
         }
         let s = &p.state.stress;
         for (lane, value) in self.stress.iter_mut().zip([s.xx, s.yy, s.zz, s.xy]) {
@@ -109,7 +102,6 @@ impl Block {
         self.volume_ratio[l] = p.volume_ratio;
         self.opened[l] = p.state.opened;
         self.plastic_shear[l] = p.state.plastic_shear;
-        self.id[l] = p.id;
     }
 }
 
@@ -120,6 +112,8 @@ pub type Fingers = [Lane; 3];
 #[derive(Debug, Clone, Default)]
 pub struct Points {
     blocks: Vec<Block>,
+    /// Numbers of the points within their body, unchanged by sorting; parallel to the blocks, which a step reads and writes.
+    ids: Vec<[u32; LANES]>,
     /// Parallel to the blocks, for laws that carry them, and else empty.
     fingers: Vec<Fingers>,
     carries_fingers: bool,
@@ -145,6 +139,7 @@ impl Points {
     /// Forgets all points, keeping the memory.
     pub fn clear(&mut self) {
         self.blocks.clear();
+        self.ids.clear();
         self.fingers.clear();
         self.len = 0;
     }
@@ -152,6 +147,7 @@ impl Points {
     /// Makes room for `len` points, to be written with [`Points::set`].
     pub fn resize(&mut self, len: usize) {
         self.blocks.resize_with(len.div_ceil(LANES), Block::default);
+        self.ids.resize(len.div_ceil(LANES), [u32::MAX; LANES]);
         if self.carries_fingers {
             self.fingers.resize_with(len.div_ceil(LANES), Fingers::default);
         }
@@ -161,6 +157,7 @@ impl Points {
     /// Writes point `i`.
     pub fn set(&mut self, i: usize, p: &Particle) {
         self.blocks[i / LANES].set(i % LANES, p);
+        self.ids[i / LANES][i % LANES] = p.id;
         if let Some(f) = self.fingers.get_mut(i / LANES) {
             let b = &p.state.finger;
             (f[0][i % LANES], f[1][i % LANES], f[2][i % LANES]) = (b.xx, b.yy, b.xy);
@@ -186,12 +183,20 @@ impl Points {
         if used > 0
             && let Some(last) = self.blocks.last_mut()
         {
-            let p = last.get(used - 1);
-            for l in used..LANES {
-                last.set(l, &p);
-                last.id[l] = u32::MAX;
-            }
+            let p = last.get(used - 1, u32::MAX);
+            (used..LANES).for_each(|l| last.set(l, &p));
         }
+    }
+
+    /// Number of blocks.
+    pub fn block_count(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Numbers of the points of each block within their body.
+    #[inline(always)]
+    pub fn ids(&self) -> &[[u32; LANES]] {
+        &self.ids
     }
 
     /// A block, if there are so many.
@@ -224,10 +229,10 @@ impl Points {
 
     /// All points in order.
     pub fn iter(&self) -> impl Iterator<Item = Particle> {
-        self.blocks().enumerate().flat_map(|(i, (b, n))| {
+        self.blocks().zip(&self.ids).enumerate().flat_map(|(i, ((b, n), ids))| {
             let fingers = self.fingers.get(i);
             (0..n).map(move |l| {
-                let mut p = b.get(l);
+                let mut p = b.get(l, ids[l]);
                 if let Some(f) = fingers {
                     p.state.finger = Finger { xx: f[0][l], yy: f[1][l], xy: f[2][l] };
                 }
@@ -238,7 +243,9 @@ impl Points {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.blocks.capacity() * size_of::<Block>() + self.fingers.capacity() * size_of::<Fingers>()
+        self.blocks.capacity() * size_of::<Block>()
+            + self.ids.capacity() * size_of::<[u32; LANES]>()
+            + self.fingers.capacity() * size_of::<Fingers>()
     }
 }
 

@@ -15,7 +15,7 @@ use failure::CRUSHED;
 use field::VelocityField;
 use implicit::ImplicitBody;
 use stages::Stage;
-use sweep::On;
+use sweep::{On, Pool};
 
 mod access;
 mod coupling;
@@ -53,6 +53,8 @@ pub struct Simulation {
     fields: Vec<VelocityField>,
     /// Where the bands of each field are during a sweep.
     bands: Vec<Vec<Band>>,
+    /// What they work with where one sweep does all of a step.
+    pools: Vec<Pool>,
     coupling: Coupling,
     implicit: Vec<ImplicitBody>,
     speeds: Vec<f64>,
@@ -108,6 +110,7 @@ impl Simulation {
             bodies,
             boundaries,
             bands: vec![Vec::new(); fields.len()],
+            pools: Vec::new(),
             fields,
             time: 0.0,
             steps: 0,
@@ -148,11 +151,15 @@ impl Simulation {
     fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64) {
         // The bands leave their fields, which all threads read, for as long as they are worked on.
         let mut bands = std::mem::take(&mut self.bands);
+        let mut pools = std::mem::take(&mut self.pools);
         self.swap_bands(&mut bands);
         let step = self.begin(dt);
-        sweep::sweep(stages, &mut bands, &|&stage, k, before, band| step.run(stage, &self.fields[k], before, band));
+        let lent = self.coupling.is_empty().then_some(&mut pools);
+        sweep::sweep(stages, &mut bands, lent, &|&stage, k, before, band| {
+            step.run(stage, &self.fields[k], before, band);
+        });
         self.swap_bands(&mut bands);
-        self.bands = bands;
+        (self.bands, self.pools) = (bands, pools);
     }
 
     fn swap_bands(&mut self, bands: &mut [Vec<Band>]) {
@@ -273,6 +280,9 @@ impl Simulation {
         let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
         self.fields[field].sort(&rules, &self.boundaries);
         self.coupling.stale = true;
+        if !self.coupling.is_empty() {
+            self.fields[field].bands.iter_mut().for_each(Band::make_room);
+        }
         if let Some(body) = self.implicit.iter_mut().find(|b| b.field == field) {
             body.rebuild(field, &self.fields[field], self.numerics.shape);
         }

@@ -9,6 +9,7 @@ use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kern
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Particle, Points};
 use crate::constitutive::{AnyLaw, Law};
+use crate::lanes::Lane;
 use crate::shape::{AveragedHat, Hat, Shape1d};
 use crate::vector::Plain;
 #[cfg(target_arch = "x86_64")]
@@ -99,11 +100,11 @@ mod wide {
     ));
     by_vector_unit!(gather_velocity, [S: Shape1d], [const REMAP], (
         shape: S, map: &NodeMap, constants: PointConstants, update: VelocityUpdate, motion: &[[f64; 4]],
-        points: &mut Points, momentum: &mut [[f64; 2]],
+        points: &mut Points, displacement: &mut [[Lane; 2]], momentum: &mut [[f64; 2]],
     ) -> BandSums);
     by_vector_unit!(update_stress, [S: Shape1d, L: Law], [], (
         shape: S, law: L, map: &NodeMap, constants: PointConstants, update: StressUpdate,
-        velocity: &[[f64; 2]], points: &mut Points,
+        velocity: &[[f64; 2]], displacement: &[[Lane; 2]], points: &mut Points,
     ) -> BandSums);
 
     pub(super) fn scatter_shape<S: Shape1d>(
@@ -128,12 +129,13 @@ mod wide {
         update: VelocityUpdate,
         motion: &[[f64; 4]],
         points: &mut Points,
+        displacement: &mut [[Lane; 2]],
         momentum: &mut [[f64; 2]],
     ) -> BandSums {
         if update.remap {
-            gather_velocity::<S, true>(shape, map, constants, update, motion, points, momentum)
+            gather_velocity::<S, true>(shape, map, constants, update, motion, points, displacement, momentum)
         } else {
-            gather_velocity::<S, false>(shape, map, constants, update, motion, points, momentum)
+            gather_velocity::<S, false>(shape, map, constants, update, motion, points, displacement, momentum)
         }
     }
 
@@ -144,12 +146,13 @@ mod wide {
         constants: PointConstants,
         update: StressUpdate,
         velocity: &[[f64; 2]],
+        displacement: &[[Lane; 2]],
         points: &mut Points,
     ) -> BandSums {
         match law {
-            AnyLaw::LinearElastic(law) => update_stress(shape, law, map, constants, update, velocity, points),
-            AnyLaw::DruckerPrager(law) => update_stress(shape, law, map, constants, update, velocity, points),
-            AnyLaw::NeoHookean(law) => update_stress(shape, law, map, constants, update, velocity, points),
+            AnyLaw::LinearElastic(law) => update_stress(shape, law, map, constants, update, velocity, displacement, points),
+            AnyLaw::DruckerPrager(law) => update_stress(shape, law, map, constants, update, velocity, displacement, points),
+            AnyLaw::NeoHookean(law) => update_stress(shape, law, map, constants, update, velocity, displacement, points),
         }
     }
 }
@@ -195,13 +198,14 @@ pub fn gather_velocity(
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
+    displacement: &mut [[Lane; 2]],
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::gather_shape(shape, map, constants, update, motion, points, momentum)
+        wide::gather_shape(shape, map, constants, update, motion, points, displacement, momentum)
     } else {
-        wide::gather_shape(Hat, map, constants, update, motion, points, momentum)
+        wide::gather_shape(Hat, map, constants, update, motion, points, displacement, momentum)
     }
 }
 
@@ -213,13 +217,14 @@ pub fn update_stress(
     constants: PointConstants,
     update: StressUpdate,
     velocity: &[[f64; 2]],
+    displacement: &[[Lane; 2]],
     points: &mut Points,
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::stress_shape(shape, law, map, constants, update, velocity, points)
+        wide::stress_shape(shape, law, map, constants, update, velocity, displacement, points)
     } else {
-        wide::stress_shape(Hat, law, map, constants, update, velocity, points)
+        wide::stress_shape(Hat, law, map, constants, update, velocity, displacement, points)
     }
 }
 

@@ -168,10 +168,10 @@ pub fn scatter_field<S: Shape1d>(
     force: &mut [[f64; 2]],
 ) {
     let mut stencil = Stencils::EMPTY;
-    for (block, n) in points.blocks() {
+    for ((block, n), ids) in points.blocks().zip(points.ids()) {
         stencil.evaluate(shape, map, block);
         for l in 0..n {
-            let f = acceleration(&block.get(l)).map(|a| mass * a);
+            let f = acceleration(&block.get(l, ids[l])).map(|a| mass * a);
             for i in 0..STENCIL {
                 let nodes = &mut force[stencil.first[i][l]..][..STENCIL];
                 for (j, node) in nodes.iter_mut().enumerate() {
@@ -192,12 +192,13 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
+    displacement: &mut [[Lane; 2]],
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
     let (mut stencil, mut seen) = (Stencils::EMPTY, [ZERO; 4]);
-    for (block, n) in points.blocks_mut() {
+    for ((block, n), dx) in points.blocks_mut().zip(displacement) {
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
@@ -229,7 +230,7 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
                 let moved = update.dt * seen[d][l];
                 let size = moved.abs();
                 farthest[l] = if size > farthest[l] { size } else { farthest[l] };
-                block.dx[d][l] = moved;
+                dx[d][l] = moved;
                 if update.move_now {
                     block.x[d][l] += moved;
                 }
@@ -274,12 +275,13 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
     constants: PointConstants,
     update: StressUpdate,
     velocity: &[[f64; 2]],
+    displacement: &[[Lane; 2]],
     points: &mut Points,
 ) -> BandSums {
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
     let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
-    for (block, n, mut fingers) in points.blocks_and_fingers_mut() {
+    for ((block, n, mut fingers), dx) in points.blocks_and_fingers_mut().zip(displacement) {
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
@@ -342,7 +344,7 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
         if update.move_after {
             for d in 0..2 {
                 for l in 0..LANES {
-                    block.x[d][l] += block.dx[d][l];
+                    block.x[d][l] += dx[d][l];
                 }
             }
         }

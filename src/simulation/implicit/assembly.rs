@@ -96,7 +96,7 @@ impl ImplicitBody {
             let band = field.bands.partition_point(|b| b.first_node <= node) - 1;
             self.places.push((band, node - field.bands[band].first_node));
             self.mass.push(mass[node]);
-            self.clamped.push(field.bands[band].nodes.holds.iter().any(|h| h.node as usize == node));
+            self.clamped.push(field.bands[band].holds.iter().any(|h| h.node as usize == node));
         }
         self.touchable = TOUCHABLE * self.mass.iter().fold(0.0, |a: f64, m| a.max(*m));
         for point in &mut self.points {

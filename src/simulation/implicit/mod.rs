@@ -145,7 +145,7 @@ impl ImplicitBody {
         self.slots.clear();
         for (b, band) in field.bands.iter().enumerate() {
             self.slots.push(self.shared.len());
-            for (index, &at) in band.nodes.shared.iter().enumerate() {
+            for (index, &at) in band.shared.iter().enumerate() {
                 let node = number[band.first_node + at as usize];
                 let response = match known.get_mut(node).and_then(Option::take) {
                     Some(s) => s.response,
@@ -239,7 +239,7 @@ impl ImplicitBody {
     pub fn offer(&self, slot: usize, field: &mut VelocityField) {
         let &Shared { node, band, index, impulse, mobility, rank, .. } = &self.shared[slot];
         let v = self.velocity_at(rank);
-        let open = &mut field.bands[band].nodes.open[index];
+        let open = &mut field.bands[band].open[index];
         if self.clamped.get(node).is_none_or(|c| *c) || mobility <= 0.0 {
             open.free = v;
         } else {

@@ -29,7 +29,7 @@ impl ImplicitBody {
         self.factor.solve(&mut self.free);
         for s in &mut self.shared {
             s.touched = false;
-            let open = &mut field.bands[s.band].nodes.open[s.index];
+            let open = &mut field.bands[s.band].open[s.index];
             *open = Default::default();
             if self.mass.get(s.node).is_some_and(|&m| m >= self.touchable) {
                 open.mass = self.mass[s.node];
@@ -89,7 +89,7 @@ impl ImplicitBody {
                 m * (new[i] - self.velocity[i]) - dt * (m * forces.gravity[d] - force(i)) - damped[d] - contact[i]
             });
             let number = band.first_node + at;
-            if let Some(hold) = band.nodes.holds.iter().find(|h| h.node as usize == number) {
+            if let Some(hold) = band.holds.iter().find(|h| h.node as usize == number) {
                 let moment = hold.arm[0] * impulse[1] - hold.arm[1] * impulse[0];
                 let tally = Tally { impulse, moment, ..Tally::default() };
                 band.tallies[hold.boundary as usize].add(&tally);
@@ -117,8 +117,8 @@ impl ImplicitBody {
     fn show(&self, field: &mut VelocityField) {
         for s in self.shared.iter().filter(|s| s.node < self.mass.len()) {
             let band = &mut field.bands[s.band];
-            let at = band.nodes.shared[s.index] as usize;
-            band.nodes.strain_velocity[at] = [self.velocity[2 * s.node], self.velocity[2 * s.node + 1]];
+            let at = band.shared[s.index] as usize;
+            band.work.strain_velocity[at] = [self.velocity[2 * s.node], self.velocity[2 * s.node + 1]];
         }
     }
 

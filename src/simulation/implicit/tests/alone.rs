@@ -79,10 +79,11 @@ impl Alone {
         let sim = wall(ShapeFunction::Ugimp, AnyLaw::LinearElastic(elastic()));
         let (mut body, mut field) = (sim.implicit[0].clone(), sim.fields[0].clone());
         let reference = Reference::new(&sim, &body);
+        field.bands.iter_mut().for_each(crate::band::Band::make_room);
         if shared {
             for band in &mut field.bands {
-                band.nodes.shared = (0..band.owned() as u32).step_by(3).collect();
-                band.nodes.open = vec![Default::default(); band.nodes.shared.len()];
+                band.shared = (0..band.owned as u32).step_by(3).collect();
+                band.open = vec![Default::default(); band.shared.len()];
             }
         }
         body.follow(&field);
@@ -228,8 +229,8 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         if step == 1 {
             // Other fields have moved: other nodes are shared, some of them still.
             for band in &mut field.bands {
-                band.nodes.shared = (0..band.owned() as u32).step_by(2).collect();
-                band.nodes.open = vec![Default::default(); band.nodes.shared.len()];
+                band.shared = (0..band.owned as u32).step_by(2).collect();
+                band.open = vec![Default::default(); band.shared.len()];
             }
             body.follow(field);
         }
@@ -240,7 +241,7 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         assert!(next_to_none > 0, "contact leaves nothing out");
         for (k, s) in shared.iter().enumerate() {
             assert_eq!(body.slot(s.band, s.index), k);
-            let open = field.bands[s.band].nodes.open[s.index];
+            let open = field.bands[s.band].open[s.index];
             if s.node < n / 2 && body.mass[s.node] >= 1e-3 * fullest {
                 let two = |values: &[f64]| [values[2 * s.node], values[2 * s.node + 1]];
                 assert_eq!((open.mass, open.old, open.free), (body.mass[s.node], two(&old[0]), two(&body.free)));
@@ -281,7 +282,7 @@ fn impulses_of_contact_move_all_nodes_at_once() {
                 }
                 body.offer(k, field);
                 let s = body.shared[k].clone();
-                let open = field.bands[s.band].nodes.open[s.index];
+                let open = field.bands[s.band].open[s.index];
                 let told = if body.clamped[s.node] {
                     assert_eq!(s.mobility, 0.0);
                     open.free
@@ -309,8 +310,8 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         alone.finish(old, &impulses, forces, dt);
         let Alone { body, field, .. } = &alone;
         for s in body.shared.iter().filter(|s| s.node < n / 2) {
-            let nodes = &field.bands[s.band].nodes;
-            let shown = nodes.strain_velocity[nodes.shared[s.index] as usize];
+            let band = &field.bands[s.band];
+            let shown = band.work.strain_velocity[band.shared[s.index] as usize];
             assert_eq!(shown, [body.velocity[2 * s.node], body.velocity[2 * s.node + 1]]);
         }
     }
