@@ -146,10 +146,17 @@ impl Points {
 
     /// Makes room for `len` points, to be written with [`Points::set`].
     pub fn resize(&mut self, len: usize) {
-        self.blocks.resize_with(len.div_ceil(LANES), Block::default);
-        self.ids.resize(len.div_ceil(LANES), [u32::MAX; LANES]);
+        let blocks = len.div_ceil(LANES);
+        // All points of a body start in one band.
+        if self.blocks.capacity() > 64 + 8 * blocks {
+            self.blocks.shrink_to(2 * blocks);
+            self.ids.shrink_to(2 * blocks);
+            self.fingers.shrink_to(2 * blocks);
+        }
+        self.blocks.resize_with(blocks, Block::default);
+        self.ids.resize(blocks, [u32::MAX; LANES]);
         if self.carries_fingers {
-            self.fingers.resize_with(len.div_ceil(LANES), Fingers::default);
+            self.fingers.resize_with(blocks, Fingers::default);
         }
         self.len = len;
     }
@@ -212,19 +219,10 @@ impl Points {
         self.blocks.iter().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
     }
 
-    /// The blocks, mutable, with the number of real points in each.
+    /// The blocks, mutable, and their left Cauchy-Green tensors, for laws that carry them, or else none.
     #[inline(always)]
-    pub fn blocks_mut(&mut self) -> impl Iterator<Item = (&mut Block, usize)> {
-        let len = self.len;
-        self.blocks.iter_mut().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
-    }
-
-    /// The same with the left Cauchy-Green tensors, for laws that carry them.
-    #[inline(always)]
-    pub fn blocks_and_fingers_mut(&mut self) -> impl Iterator<Item = (&mut Block, usize, Option<&mut Fingers>)> {
-        let len = self.len;
-        let mut fingers = self.fingers.iter_mut();
-        self.blocks.iter_mut().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES), fingers.next()))
+    pub fn blocks_mut(&mut self) -> (&mut [Block], &mut [Fingers]) {
+        (&mut self.blocks, &mut self.fingers)
     }
 
     /// All points in order.

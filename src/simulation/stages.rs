@@ -8,7 +8,7 @@ use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::momentum::{self, BodyForces};
 use crate::shape::ShapeFunction;
-use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use crate::transfer::{self, Moving, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
 
 /// One stage of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,11 +67,6 @@ pub(super) struct Step<'a> {
 }
 
 impl Simulation {
-    /// What acts on every node of a velocity field.
-    pub(super) fn forces_on(&self, field: usize) -> BodyForces {
-        self.fields[field].forces(self.forces)
-    }
-
     /// The step of `dt` seconds that begins now.
     pub(super) fn begin(&self, dt: f64) -> Step<'_> {
         let scheme = self.numerics.scheme;
@@ -135,10 +130,11 @@ impl Step<'_> {
         }
         let (mut sums, mut moved) = (BandSums::default(), &mut moved[..]);
         for (body, points) in of.bodies.iter().zip(&mut band.points) {
-            let (own, rest) = moved.split_at_mut(points.block_count());
+            let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
             let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part = transfer::gather_velocity(l, &map, c, self.velocity, motion, points, own, remapped);
+            let part =
+                transfer::gather_velocity(l, &map, c, self.velocity, motion, Moving { points, displacement }, remapped);
             sums.kinetic += part.kinetic;
             sums.pic_loss += part.pic_loss;
             sums.max_speed = sums.max_speed.max(part.max_speed);
@@ -151,13 +147,15 @@ impl Step<'_> {
 
     fn update_stress(&self, of: &VelocityField, band: &mut Band) {
         let map = NodeMap::new(&of.grid, band.first_node);
-        let (velocity, mut moved) = (&band.work.strain_velocity, &band.work.moved[..]);
+        let Workspace { strain_velocity: velocity, moved, .. } = &mut band.work;
+        let mut moved = &mut moved[..];
         let (mut work, mut smallest) = (0.0, f64::INFINITY);
         for (body, points) in of.bodies.iter().zip(&mut band.points) {
-            let (own, rest) = moved.split_at(points.block_count());
+            let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
             let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part = transfer::update_stress(l, body.law, &map, c, self.stress, velocity, own, points);
+            let part =
+                transfer::update_stress(l, body.law, &map, c, self.stress, velocity, Moving { points, displacement });
             work += part.internal_work;
             smallest = smallest.min(part.min_volume_ratio);
         }

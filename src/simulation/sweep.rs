@@ -18,8 +18,8 @@ use crate::band::{Band, Workspace};
 use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Looks at a flag before a thread that waits for another may fall asleep: some ten microseconds.
-const LOOKS: u32 = 2000;
+/// Looks at a flag before a thread that waits for another may fall asleep: a tenth of a millisecond.
+const LOOKS: u32 = 10_000;
 /// Most parts a sweep is divided into.
 const MAX_PARTS: usize = 64;
 /// Bands that make a part worth a thread.
@@ -119,22 +119,52 @@ fn parts_between<S: Sync>(
 /// that falls asleep takes as long to wake up as a small sweep takes.
 pub fn together(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     let [a_done, b_begun, b_done] = [const { AtomicBool::new(false) }; 3];
-    let is = |flag: &AtomicBool| flag.load(Ordering::Acquire);
-    let wait = |go_on: &dyn Fn() -> bool| (0..LOOKS).take_while(|_| go_on()).for_each(|_| std::hint::spin_loop());
     rayon::join(
         || {
             a();
             a_done.store(true, Ordering::Release);
             // What no other thread has taken up yet is done by this one, after this.
-            wait(&|| is(&b_begun) && !is(&b_done));
+            wait(|| is(&b_begun) && !is(&b_done));
         },
         || {
             b_begun.store(true, Ordering::Release);
             b();
             b_done.store(true, Ordering::Release);
-            wait(&|| !is(&a_done));
+            wait(|| !is(&a_done));
         },
     );
+}
+
+/// Does what only one thread can, while another stays awake.
+pub fn alone(work: impl FnOnce() + Send) {
+    together(work, || {});
+}
+
+/// Does a sweep and something else at its side. Either may use several threads: the one that is done first helps the other.
+pub fn beside(sweep: impl FnOnce() + Send, work: impl FnOnce() + Send) {
+    let [begun, done] = [const { AtomicBool::new(false) }; 2];
+    rayon::join(
+        || {
+            sweep();
+            wait(|| {
+                rayon::yield_now();
+                is(&begun) && !is(&done)
+            });
+        },
+        || {
+            begun.store(true, Ordering::Release);
+            work();
+            done.store(true, Ordering::Release);
+        },
+    );
+}
+
+fn is(flag: &AtomicBool) -> bool {
+    flag.load(Ordering::Acquire)
+}
+
+fn wait(go_on: impl Fn() -> bool) {
+    (0..LOOKS).take_while(|_| go_on()).for_each(|_| std::hint::spin_loop());
 }
 
 /// Sweeps one part as far as it does not depend on what lies beyond its open ends. Bands beside those keep the workspace that they
@@ -241,8 +271,14 @@ mod tests {
         pool.install(|| {
             let work = |&stage: &usize, field: usize, before: Option<&mut Band>, band: &mut Band| {
                 let k = band.first_node;
+                // Each has its workspace to itself, from its first stage to the last that looks at it.
+                if stage == 0 {
+                    band.work.mass = vec![k as f64];
+                }
+                assert_eq!(band.work.mass, [k as f64]);
                 if STAGES[stage].0 == On::Nodes {
-                    assert_eq!(before.map(|b| b.first_node), k.checked_sub(1), "the band before {k}");
+                    assert_eq!(before.as_ref().map(|b| b.first_node), k.checked_sub(1), "the band before {k}");
+                    assert!(before.is_none_or(|b| b.work.mass == [k as f64 - 1.0]), "the workspace before {k}");
                 }
                 let done = &mut done.lock().expect("no panic before")[field];
                 let around =
@@ -259,7 +295,15 @@ mod tests {
                 assert!(!done[k][stage], "stage {stage} twice on band {k} of field {field}");
                 done[k][stage] = true;
             };
-            sweeps.iter().for_each(|stages| sweep(stages, &mut all, None, &work));
+            let mut pools = Vec::new();
+            for stages in sweeps {
+                sweep(stages, &mut all, (sweeps.len() == 1).then_some(&mut pools), &work);
+            }
+            if sweeps.len() == 1 {
+                assert!(all.iter().flatten().all(|band| band.work.mass.is_empty()), "workspaces are given back");
+                let lent = pools.iter().map(Vec::len).max().unwrap_or(0);
+                assert!(lent <= 10, "{lent} workspaces");
+            }
         });
         let done = done.into_inner().expect("no panic");
         assert!(done.iter().flatten().flatten().all(|&d| d), "{fields:?} bands, {threads} threads");

@@ -5,11 +5,10 @@
 //! `unsafe`; it is done after the processor has said that it has it. The only other `unsafe` of the crate is in [`crate::vector`].
 #![allow(unsafe_code)]
 
-use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
+use super::{Moving, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Particle, Points};
 use crate::constitutive::{AnyLaw, Law};
-use crate::lanes::Lane;
 use crate::shape::{AveragedHat, Hat, Shape1d};
 use crate::vector::Plain;
 #[cfg(target_arch = "x86_64")]
@@ -100,11 +99,11 @@ mod wide {
     ));
     by_vector_unit!(gather_velocity, [S: Shape1d], [const REMAP], (
         shape: S, map: &NodeMap, constants: PointConstants, update: VelocityUpdate, motion: &[[f64; 4]],
-        points: &mut Points, displacement: &mut [[Lane; 2]], momentum: &mut [[f64; 2]],
+        moving: Moving, momentum: &mut [[f64; 2]],
     ) -> BandSums);
     by_vector_unit!(update_stress, [S: Shape1d, L: Law], [], (
         shape: S, law: L, map: &NodeMap, constants: PointConstants, update: StressUpdate,
-        velocity: &[[f64; 2]], displacement: &[[Lane; 2]], points: &mut Points,
+        velocity: &[[f64; 2]], moving: Moving,
     ) -> BandSums);
 
     pub(super) fn scatter_shape<S: Shape1d>(
@@ -128,14 +127,13 @@ mod wide {
         constants: PointConstants,
         update: VelocityUpdate,
         motion: &[[f64; 4]],
-        points: &mut Points,
-        displacement: &mut [[Lane; 2]],
+        moving: Moving,
         momentum: &mut [[f64; 2]],
     ) -> BandSums {
         if update.remap {
-            gather_velocity::<S, true>(shape, map, constants, update, motion, points, displacement, momentum)
+            gather_velocity::<S, true>(shape, map, constants, update, motion, moving, momentum)
         } else {
-            gather_velocity::<S, false>(shape, map, constants, update, motion, points, displacement, momentum)
+            gather_velocity::<S, false>(shape, map, constants, update, motion, moving, momentum)
         }
     }
 
@@ -146,13 +144,12 @@ mod wide {
         constants: PointConstants,
         update: StressUpdate,
         velocity: &[[f64; 2]],
-        displacement: &[[Lane; 2]],
-        points: &mut Points,
+        moving: Moving,
     ) -> BandSums {
         match law {
-            AnyLaw::LinearElastic(law) => update_stress(shape, law, map, constants, update, velocity, displacement, points),
-            AnyLaw::DruckerPrager(law) => update_stress(shape, law, map, constants, update, velocity, displacement, points),
-            AnyLaw::NeoHookean(law) => update_stress(shape, law, map, constants, update, velocity, displacement, points),
+            AnyLaw::LinearElastic(law) => update_stress(shape, law, map, constants, update, velocity, moving),
+            AnyLaw::DruckerPrager(law) => update_stress(shape, law, map, constants, update, velocity, moving),
+            AnyLaw::NeoHookean(law) => update_stress(shape, law, map, constants, update, velocity, moving),
         }
     }
 }
@@ -197,15 +194,14 @@ pub fn gather_velocity(
     constants: PointConstants,
     update: VelocityUpdate,
     motion: &[[f64; 4]],
-    points: &mut Points,
-    displacement: &mut [[Lane; 2]],
+    moving: Moving,
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::gather_shape(shape, map, constants, update, motion, points, displacement, momentum)
+        wide::gather_shape(shape, map, constants, update, motion, moving, momentum)
     } else {
-        wide::gather_shape(Hat, map, constants, update, motion, points, displacement, momentum)
+        wide::gather_shape(Hat, map, constants, update, motion, moving, momentum)
     }
 }
 
@@ -217,14 +213,13 @@ pub fn update_stress(
     constants: PointConstants,
     update: StressUpdate,
     velocity: &[[f64; 2]],
-    displacement: &[[Lane; 2]],
-    points: &mut Points,
+    moving: Moving,
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::stress_shape(shape, law, map, constants, update, velocity, displacement, points)
+        wide::stress_shape(shape, law, map, constants, update, velocity, moving)
     } else {
-        wide::stress_shape(Hat, law, map, constants, update, velocity, displacement, points)
+        wide::stress_shape(Hat, law, map, constants, update, velocity, moving)
     }
 }
 

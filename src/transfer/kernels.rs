@@ -2,7 +2,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
 
-use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
+use super::{Moving, NodeMap, PointConstants, StressUpdate, VelocityUpdate};
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Block, Particle, Points};
 use crate::constitutive::{Finger, Increment, Law, PointState, Stress};
@@ -10,8 +10,8 @@ use crate::lanes::{LANES, Lane, floor_to_int};
 use crate::shape::{STENCIL, Shape1d};
 use crate::vector::{Pack4, Pack8, Unit};
 
-/// Blocks by which the scatter, the first to touch them in a step, asks for them ahead.
-const AHEAD: usize = 8;
+/// Blocks by which the scatter, the first to touch them in a step, asks for them ahead; the later passes ask for the next.
+const AHEAD: usize = 4;
 
 const ZERO: Lane = [0.0; LANES];
 
@@ -191,14 +191,20 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
     constants: PointConstants,
     update: VelocityUpdate,
     motion: &[[f64; 4]],
-    points: &mut Points,
-    displacement: &mut [[Lane; 2]],
+    moving: Moving,
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
     let (mut stencil, mut seen) = (Stencils::EMPTY, [ZERO; 4]);
-    for ((block, n), dx) in points.blocks_mut().zip(displacement) {
+    let Moving { points, displacement } = moving;
+    let len = points.len();
+    let (blocks, _) = points.blocks_mut();
+    for (number, dx) in displacement.iter_mut().enumerate() {
+        if let Some(soon) = blocks.get(number + 1) {
+            U::prefetch(soon);
+        }
+        let (block, n) = (&mut blocks[number], LANES.min(len - number * LANES));
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
@@ -275,13 +281,20 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
     constants: PointConstants,
     update: StressUpdate,
     velocity: &[[f64; 2]],
-    displacement: &[[Lane; 2]],
-    points: &mut Points,
+    moving: Moving,
 ) -> BandSums {
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
     let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
-    for ((block, n, mut fingers), dx) in points.blocks_and_fingers_mut().zip(displacement) {
+    let Moving { points, displacement } = moving;
+    let len = points.len();
+    let (blocks, all_fingers) = points.blocks_mut();
+    for (number, dx) in displacement.iter().enumerate() {
+        if let Some(soon) = blocks.get(number + 1) {
+            U::prefetch(soon);
+        }
+        let (block, n) = (&mut blocks[number], LANES.min(len - number * LANES));
+        let mut fingers = all_fingers.get_mut(number);
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {

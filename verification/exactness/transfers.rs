@@ -10,7 +10,7 @@ use crate::grid::{ActiveGrid, Lattice};
 use crate::layout::{SortRules, Sorter};
 use crate::shape::ShapeFunction;
 use crate::theory::jaumann::turned;
-use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use crate::transfer::{self, Moving, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 const H: f64 = 0.01;
@@ -149,8 +149,7 @@ impl Bench {
                 constants,
                 velocity,
                 &work.motion,
-                points,
-                &mut work.moved,
+                Moving { points, displacement: &mut work.moved },
                 &mut work.remapped,
             );
             transfer::update_stress(
@@ -160,8 +159,7 @@ impl Bench {
                 constants,
                 stress,
                 &work.strain_velocity,
-                &work.moved,
-                points,
+                Moving { points, displacement: &mut work.moved },
             );
             for p in points.iter() {
                 let v = field(p.x);

@@ -96,7 +96,7 @@ impl Marks {
             for (body, points) in field.bodies.iter().zip(&band.points) {
                 let half_width = shape.half_width(body.points_per_direction);
                 for ((block, n), ids) in points.blocks().zip(points.ids()) {
-                    for l in 0..n {
+                    for (l, &id) in ids[..n].iter().enumerate() {
                         let x = [block.x[0][l], block.x[1][l]];
                         let at =
                             [0, 1].map(|d| floor_to_int((x[d] - grid.corner[d]) * grid.inverse_spacing - half_width));
@@ -115,7 +115,7 @@ impl Marks {
                                     let per = grid.inverse_spacing;
                                     let gradient = [gx[a] * wy[b] * per, wx[a] * gy[b] * per];
                                     let volume_ratio = block.volume_ratio[l];
-                                    let seen = Seen { id: ids[l], x, volume_ratio, weight, gradient };
+                                    let seen = Seen { id, x, volume_ratio, weight, gradient };
                                     visit(number as usize, &seen, &found);
                                 }
                             }

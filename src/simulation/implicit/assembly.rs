@@ -40,6 +40,7 @@ impl ImplicitBody {
         }
         self.assemble(field);
         self.unseen = self.nodal_kinetic() - self.point_kinetic(field);
+        self.forget();
         self.shared.clear();
         self.slots.clear();
         self.dt = 0.0;
@@ -147,6 +148,7 @@ impl ImplicitBody {
                 }
             }
         }
+        self.blocks.follow(&self.stiffness);
         for (node, &m) in self.mass.iter().enumerate() {
             for i in [2 * node, 2 * node + 1] {
                 self.velocity[i] = momentum[i] / m;

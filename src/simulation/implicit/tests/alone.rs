@@ -39,7 +39,7 @@ fn mass_velocity_force_and_stiffness_are_sums_over_points() {
         let mut random = Lcg::new(7);
         let u: Vec<f64> = (0..n).map(|_| random.signed()).collect();
         let mut force = vec![0.0; n];
-        body.stiffness.multiply(&u, &mut force);
+        body.blocks.multiply(&u, &mut force);
         assert!(apart(&force, &reference.stiffness_times(&u)) < ROUND, "{shape:?}");
         let clamp = &sim.boundaries()[0];
         let held: Vec<bool> = reference.x.iter().map(|x| clamp.depth(*x) > -0.5 * H).collect();
@@ -249,9 +249,17 @@ fn impulses_of_contact_move_all_nodes_at_once() {
                 assert_eq!(open, Default::default());
             }
         }
+        // Others in every step, clamped ones among them.
+        let touched: Vec<usize> =
+            (0..shared.len()).filter(|k| shared[*k].node < n / 2 && (k + step) % 4 == 0).collect();
+        assert!(touched.iter().any(|&k| body.clamped[shared[k].node]));
+        touched.iter().for_each(|&k| body.touch(k));
+        body.weigh();
+        assert_eq!(body.touched, touched);
+        assert!(body.shared.iter().all(|s| s.touched || s.impulse == [0.0; 2]));
         // How all nodes answer a unit impulse: M r + (theta dt)^2 K r = e, and nothing where they are clamped.
-        for s in shared.iter().filter(|s| s.node < n / 2 && !body.clamped[s.node]) {
-            for (d, response) in s.response.iter().enumerate() {
+        for s in touched.iter().map(|&k| &shared[k]).filter(|s| !body.clamped[s.node]) {
+            for (d, response) in body.responses[s.node].iter().enumerate() {
                 let force = reference.stiffness_times(response);
                 for i in 0..n {
                     let unit = if i == 2 * s.node + d { 1.0 } else { 0.0 };
@@ -262,22 +270,14 @@ fn impulses_of_contact_move_all_nodes_at_once() {
                 }
             }
         }
-        // Others in every step, clamped ones among them.
-        let touched: Vec<usize> =
-            (0..shared.len()).filter(|k| shared[*k].node < n / 2 && (k + step) % 4 == 0).collect();
-        assert!(touched.iter().any(|&k| body.clamped[shared[k].node]));
-        touched.iter().for_each(|&k| body.touch(k));
-        body.weigh();
-        assert_eq!(body.touched, touched);
-        assert!(body.shared.iter().all(|s| s.touched || s.impulse == [0.0; 2]));
         for sweep in 0..3 {
             let (mut change, mut largest) = (0.0f64, 0.0f64);
             for &k in &touched {
                 // Velocity under the latest impulses at all nodes, and what the node is told.
                 let mut velocity = body.free.clone();
-                for s in body.shared.iter().filter(|s| !s.response[0].is_empty()) {
-                    for (response, p) in s.response.iter().zip(s.impulse) {
-                        velocity.iter_mut().zip(response).for_each(|(v, r)| *v += r * p);
+                for s in &body.shared {
+                    for (d, p) in s.impulse.into_iter().enumerate() {
+                        velocity.iter_mut().zip(body.response(s.node, d)).for_each(|(v, r)| *v += r * p);
                     }
                 }
                 body.offer(k, field);
@@ -288,7 +288,7 @@ fn impulses_of_contact_move_all_nodes_at_once() {
                     open.free
                 } else {
                     // Frobenius's norm of how the node answers impulses on itself.
-                    let own = s.response.iter().flat_map(|r| &r[2 * s.node..2 * s.node + 2]);
+                    let own = body.responses[s.node].iter().flat_map(|r| &r[2 * s.node..2 * s.node + 2]);
                     let mobility = own.map(|x| x * x).sum::<f64>().sqrt();
                     assert!((s.mobility / mobility - 1.0).abs() < 1e-12 && open.mass == 1.0 / s.mobility);
                     [0, 1].map(|d| open.free[d] + s.mobility * s.impulse[d])
