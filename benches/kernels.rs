@@ -17,7 +17,7 @@ use checkdam::grid::{ActiveGrid, Lattice};
 use checkdam::lanes::floor_to_int;
 use checkdam::layout::{SortRules, Sorter};
 use checkdam::shape::{AveragedHat, Hat, Shape1d, ShapeFunction};
-use checkdam::transfer::{self, Moving, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use checkdam::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -98,15 +98,7 @@ fn transfers(c: &mut Criterion) {
         group.bench_function(format!("grid to particles and back (MUSL), {name}"), |b| {
             b.iter(|| {
                 let motion = black_box(&f.band.work.motion);
-                transfer::gather_velocity(
-                    l,
-                    &map,
-                    constants,
-                    velocity,
-                    motion,
-                    Moving { points: &mut moving, displacement: &mut moved },
-                    &mut remapped,
-                )
+                transfer::gather_velocity(l, &map, constants, velocity, motion, &mut moving, &mut moved, &mut remapped)
             });
         });
         let stress = StressUpdate { dt: 1e-6, move_after: false };
@@ -114,15 +106,7 @@ fn transfers(c: &mut Criterion) {
         group.bench_function(format!("strain and stress of sand, {name}"), |b| {
             b.iter(|| {
                 let velocity = black_box(&f.band.work.strain_velocity);
-                transfer::update_stress(
-                    l,
-                    f.body.law,
-                    &map,
-                    constants,
-                    stress,
-                    velocity,
-                    Moving { points: &mut strained, displacement: &mut moved },
-                )
+                transfer::update_stress(l, f.body.law, &map, constants, stress, velocity, &mut strained, &mut moved)
             });
         });
     }

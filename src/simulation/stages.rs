@@ -8,7 +8,7 @@ use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::momentum::{self, BodyForces};
 use crate::shape::ShapeFunction;
-use crate::transfer::{self, Moving, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
 
 /// One stage of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,8 +133,7 @@ impl Step<'_> {
             let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
             let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part =
-                transfer::gather_velocity(l, &map, c, self.velocity, motion, Moving { points, displacement }, remapped);
+            let part = transfer::gather_velocity(l, &map, c, self.velocity, motion, points, displacement, remapped);
             sums.kinetic += part.kinetic;
             sums.pic_loss += part.pic_loss;
             sums.max_speed = sums.max_speed.max(part.max_speed);
@@ -154,8 +153,7 @@ impl Step<'_> {
             let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
             let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part =
-                transfer::update_stress(l, body.law, &map, c, self.stress, velocity, Moving { points, displacement });
+            let part = transfer::update_stress(l, body.law, &map, c, self.stress, velocity, points, displacement);
             work += part.internal_work;
             smallest = smallest.min(part.min_volume_ratio);
         }

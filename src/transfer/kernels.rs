@@ -1,8 +1,9 @@
 //! The loops over material points.
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
+#![expect(clippy::too_many_arguments, reason = "of borrows in a struct the compiler does not know that they are apart")]
 
-use super::{Moving, NodeMap, PointConstants, StressUpdate, VelocityUpdate};
+use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Block, Particle, Points};
 use crate::constitutive::{Finger, Increment, Law, PointState, Stress};
@@ -191,13 +192,13 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
     constants: PointConstants,
     update: VelocityUpdate,
     motion: &[[f64; 4]],
-    moving: Moving,
+    points: &mut Points,
+    displacement: &mut [[Lane; 2]],
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
     let (mut stencil, mut seen) = (Stencils::EMPTY, [ZERO; 4]);
-    let Moving { points, displacement } = moving;
     let len = points.len();
     let (blocks, _) = points.blocks_mut();
     for (number, dx) in displacement.iter_mut().enumerate() {
@@ -281,12 +282,12 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
     constants: PointConstants,
     update: StressUpdate,
     velocity: &[[f64; 2]],
-    moving: Moving,
+    points: &mut Points,
+    displacement: &mut [[Lane; 2]],
 ) -> BandSums {
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
     let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
-    let Moving { points, displacement } = moving;
     let len = points.len();
     let (blocks, all_fingers) = points.blocks_mut();
     for (number, dx) in displacement.iter().enumerate() {

@@ -10,9 +10,7 @@ pub use dispatch::{
     VectorUnit, gather_velocity, limit_vector_unit, scatter, scatter_field, update_stress, vector_unit,
 };
 
-use crate::body::Points;
 use crate::grid::ActiveGrid;
-use crate::lanes::Lane;
 use crate::shape::STENCIL;
 
 /// What a scatter adds to the grid.
@@ -57,15 +55,6 @@ pub struct StressUpdate {
     pub dt: f64,
     /// Whether points then move by their displacement of the step.
     pub move_after: bool,
-}
-
-/// Points of a body in a band that are about to move.
-#[derive(Debug)]
-pub struct Moving<'a> {
-    /// The points.
-    pub points: &'a mut Points,
-    /// Their displacement in this step, m, block by block.
-    pub displacement: &'a mut [[Lane; 2]],
 }
 
 /// Where the nodal fields of a band are in memory.

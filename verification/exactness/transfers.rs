@@ -10,7 +10,7 @@ use crate::grid::{ActiveGrid, Lattice};
 use crate::layout::{SortRules, Sorter};
 use crate::shape::ShapeFunction;
 use crate::theory::jaumann::turned;
-use crate::transfer::{self, Moving, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 const H: f64 = 0.01;
@@ -149,7 +149,8 @@ impl Bench {
                 constants,
                 velocity,
                 &work.motion,
-                Moving { points, displacement: &mut work.moved },
+                points,
+                &mut work.moved,
                 &mut work.remapped,
             );
             transfer::update_stress(
@@ -159,7 +160,8 @@ impl Bench {
                 constants,
                 stress,
                 &work.strain_velocity,
-                Moving { points, displacement: &mut work.moved },
+                points,
+                &mut work.moved,
             );
             for p in points.iter() {
                 let v = field(p.x);
