@@ -66,7 +66,8 @@ impl Fixture {
         };
         Sorter::default().sort(&rules, &mut bands, &mut grid, &mut Vec::new());
         let mut band = bands.swap_remove(0);
-        for (k, v) in band.nodes.strain_velocity.iter_mut().enumerate() {
+        band.make_room();
+        for (k, v) in band.work.strain_velocity.iter_mut().enumerate() {
             *v = [1e-3 * (k % 7) as f64, -1e-3 * (k % 5) as f64];
         }
         Self { half_width: shape.half_width(2), body, band, grid }
@@ -86,25 +87,26 @@ fn transfers(c: &mut Criterion) {
         let f = Fixture::new(shape);
         let map = NodeMap::new(&f.grid, f.band.first_node);
         let (l, constants) = (f.half_width, f.constants());
-        let mut sums = vec![NodeSum::default(); f.band.nodes.sums.len()];
+        let mut sums = vec![NodeSum::default(); f.band.reach];
         let points = &f.band.points[0];
         group.bench_function(format!("particles to grid, {name}"), |b| {
             b.iter(|| transfer::scatter(Scatter::All, l, &map, constants, black_box(points), &mut sums));
         });
         let velocity = VelocityUpdate { dt: 1e-5, pic: 0.01, remap: true, move_now: false };
-        let (mut moving, mut remapped) = (points.clone(), f.band.nodes.remapped.clone());
+        let (mut moving, mut moved, mut remapped) =
+            (points.clone(), f.band.work.moved.clone(), f.band.work.remapped.clone());
         group.bench_function(format!("grid to particles and back (MUSL), {name}"), |b| {
             b.iter(|| {
-                let motion = black_box(&f.band.nodes.motion);
-                transfer::gather_velocity(l, &map, constants, velocity, motion, &mut moving, &mut remapped)
+                let motion = black_box(&f.band.work.motion);
+                transfer::gather_velocity(l, &map, constants, velocity, motion, &mut moving, &mut moved, &mut remapped)
             });
         });
         let stress = StressUpdate { dt: 1e-6, move_after: false };
         let mut strained = points.clone();
         group.bench_function(format!("strain and stress of sand, {name}"), |b| {
             b.iter(|| {
-                let velocity = black_box(&f.band.nodes.strain_velocity);
-                transfer::update_stress(l, f.body.law, &map, constants, stress, velocity, &mut strained)
+                let velocity = black_box(&f.band.work.strain_velocity);
+                transfer::update_stress(l, f.body.law, &map, constants, stress, velocity, &mut strained, &mut moved)
             });
         });
     }

@@ -7,6 +7,7 @@
 
 use crate::body::Points;
 use crate::boundary::nodes::{Hold, Tally};
+use crate::lanes::Lane;
 use crate::momentum::Distributed;
 
 /// What points add to one node: a cache line, and the width in which the scatter works.
@@ -36,29 +37,34 @@ impl NodeSum {
     }
 }
 
-/// Nodal fields within reach of a band. All but `mass`, `holds`, `shared` and `open` go on past the nodes that the band
-/// owns; `remapped` and `strain_velocity` end with one node more, so that the vectors that read and write three of them
-/// at a time may see a fourth.
+/// What a step needs of a band from its first stage to its last and no longer, so that a few of them serve many bands and stay in
+/// cache. Nodal fields but `mass` go on past the nodes that the band owns; `remapped` and `strain_velocity` end with one node more,
+/// so that the vectors that read and write three of them at a time may see a fourth.
 #[derive(Debug, Clone, Default)]
-pub struct Nodes {
+pub struct Workspace {
     /// What the band's points add.
     pub sums: Vec<NodeSum>,
     /// Momentum of the updated points (MUSL), kg m/s.
     pub remapped: Vec<[f64; 2]>,
-    /// Force of a body-force field, N; empty unless there is one.
-    pub field_force: Vec<[f64; 2]>,
     /// Mass of the owned nodes, kg.
     pub mass: Vec<f64>,
     /// New velocity and its change in this step: v_x, v_y, dv_x, dv_y in m/s.
     pub motion: Vec<[f64; 4]>,
     /// Velocity whose gradient strains the material, m/s.
     pub strain_velocity: Vec<[f64; 2]>,
-    /// Boundaries acting on the owned nodes, in the order of the nodes.
-    pub holds: Vec<Hold>,
-    /// Owned nodes that other velocity fields reach, in their order, counted from the first.
-    pub shared: Vec<u32>,
-    /// What is known of each of them before contact.
-    pub open: Vec<OpenNode>,
+    /// Displacement of the points in this step, m: applied when the stress has been updated. Block by block, body after body.
+    pub moved: Vec<[Lane; 2]>,
+}
+
+impl Workspace {
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.sums.capacity() * size_of::<NodeSum>()
+            + (self.remapped.capacity() + self.strain_velocity.capacity()) * size_of::<[f64; 2]>()
+            + self.mass.capacity() * size_of::<f64>()
+            + self.motion.capacity() * size_of::<[f64; 4]>()
+            + self.moved.capacity() * size_of::<[Lane; 2]>()
+    }
 }
 
 /// A node whose momentum balance is done but for boundaries and contact.
@@ -78,32 +84,6 @@ pub struct OpenNode {
     pub field: [f64; 2],
 }
 
-impl Nodes {
-    /// Makes room for `owned` nodes and `reach` in all.
-    pub fn resize(&mut self, owned: usize, reach: usize) {
-        self.sums.resize(reach, NodeSum::default());
-        self.remapped.resize(reach + 1, [0.0; 2]);
-        self.field_force.clear();
-        self.mass.resize(owned, 0.0);
-        self.motion.resize(reach, [0.0; 4]);
-        self.strain_velocity.resize(reach + 1, [0.0; 2]);
-        self.shared.clear();
-        self.open.clear();
-    }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        self.sums.capacity() * size_of::<NodeSum>()
-            + (self.remapped.capacity() + self.field_force.capacity() + self.strain_velocity.capacity())
-                * size_of::<[f64; 2]>()
-            + self.mass.capacity() * size_of::<f64>()
-            + self.motion.capacity() * size_of::<[f64; 4]>()
-            + self.holds.capacity() * size_of::<Hold>()
-            + self.shared.capacity() * size_of::<u32>()
-            + self.open.capacity() * size_of::<OpenNode>()
-    }
-}
-
 /// Points of neighbouring columns, the nodes they reach, and what a step counts there.
 #[derive(Debug, Clone, Default)]
 pub struct Band {
@@ -111,8 +91,20 @@ pub struct Band {
     pub points: Vec<Points>,
     /// Index of the first node in the active grid.
     pub first_node: usize,
-    /// Nodal fields.
-    pub nodes: Nodes,
+    /// Nodes that the band solves.
+    pub owned: usize,
+    /// Nodes that its points reach.
+    pub reach: usize,
+    /// What a step works with.
+    pub work: Workspace,
+    /// Force of a body-force field, N; empty unless there is one.
+    pub field_force: Vec<[f64; 2]>,
+    /// Boundaries acting on the owned nodes, in the order of the nodes.
+    pub holds: Vec<Hold>,
+    /// Owned nodes that other velocity fields reach, in their order, counted from the first.
+    pub shared: Vec<u32>,
+    /// What is known of each of them before contact.
+    pub open: Vec<OpenNode>,
     /// Sums over the points in this step.
     pub sums: BandSums,
     /// What each boundary did to the owned nodes in this step.
@@ -149,13 +141,26 @@ impl Band {
         self.len() == 0
     }
 
-    /// Nodes that the band solves.
-    pub fn owned(&self) -> usize {
-        self.nodes.mass.len()
+    /// Makes room for a step. What the workspace holds afterwards is of no use.
+    pub fn make_room(&mut self) {
+        let Self { work, owned, reach, .. } = self;
+        work.sums.resize(*reach, NodeSum::default());
+        work.remapped.resize(*reach + 1, [0.0; 2]);
+        work.mass.resize(*owned, 0.0);
+        work.motion.resize(*reach, [0.0; 4]);
+        work.strain_velocity.resize(*reach + 1, [0.0; 2]);
+        // Seen with weight zero, but seen.
+        work.strain_velocity[*reach] = [0.0; 2];
+        work.moved.resize(self.points.iter().map(Points::block_count).sum(), Default::default());
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.points.iter().map(Points::bytes).sum::<usize>() + self.nodes.bytes()
+        self.points.iter().map(Points::bytes).sum::<usize>()
+            + self.work.bytes()
+            + self.field_force.capacity() * size_of::<[f64; 2]>()
+            + self.holds.capacity() * size_of::<Hold>()
+            + self.shared.capacity() * size_of::<u32>()
+            + self.open.capacity() * size_of::<OpenNode>()
     }
 }

@@ -14,8 +14,6 @@ pub struct Block {
     pub x: [Lane; 2],
     /// Velocity, m/s.
     pub v: [Lane; 2],
-    /// Displacement of the current step, m: applied when the stress has been updated.
-    pub dx: [Lane; 2],
     /// Cauchy stress xx, yy, zz, xy in Pa, tension positive.
     pub stress: [Lane; 4],
     /// Current over reference volume, J.
@@ -24,8 +22,6 @@ pub struct Block {
     pub opened: Lane,
     /// Equivalent plastic shear strain, see [`PointState::plastic_shear`].
     pub plastic_shear: Lane,
-    /// Number of the point within its body, unchanged by sorting.
-    pub id: [u32; LANES],
 }
 
 impl Default for Block {
@@ -34,12 +30,10 @@ impl Default for Block {
         Self {
             x: [ZERO; 2],
             v: [ZERO; 2],
-            dx: [ZERO; 2],
             stress: [ZERO; 4],
             volume_ratio: [1.0; LANES],
             opened: ZERO,
             plastic_shear: ZERO,
-            id: [u32::MAX; LANES],
         }
     }
 }
@@ -72,11 +66,11 @@ impl Particle {
 }
 
 impl Block {
-    /// Reads one lane.
+    /// Reads one lane, the point of this number.
     #[inline]
-    pub fn get(&self, l: usize) -> Particle {
+    pub fn get(&self, l: usize, id: u32) -> Particle {
         Particle {
-            id: self.id[l],
+            id,
             x: [self.x[0][l], self.x[1][l]],
             v: [self.v[0][l], self.v[1][l]],
             state: PointState {
@@ -94,13 +88,12 @@ impl Block {
         }
     }
 
-    /// Writes one lane.
+    /// Writes one lane; the number of the point is kept elsewhere.
     #[inline]
     pub fn set(&mut self, l: usize, p: &Particle) {
         for d in 0..2 {
             self.x[d][l] = p.x[d];
             self.v[d][l] = p.v[d];
-            self.dx[d][l] = 0.0;
         }
         let s = &p.state.stress;
         for (lane, value) in self.stress.iter_mut().zip([s.xx, s.yy, s.zz, s.xy]) {
@@ -109,7 +102,6 @@ impl Block {
         self.volume_ratio[l] = p.volume_ratio;
         self.opened[l] = p.state.opened;
         self.plastic_shear[l] = p.state.plastic_shear;
-        self.id[l] = p.id;
     }
 }
 
@@ -120,6 +112,8 @@ pub type Fingers = [Lane; 3];
 #[derive(Debug, Clone, Default)]
 pub struct Points {
     blocks: Vec<Block>,
+    /// Numbers of the points within their body, unchanged by sorting; parallel to the blocks, which a step reads and writes.
+    ids: Vec<[u32; LANES]>,
     /// Parallel to the blocks, for laws that carry them, and else empty.
     fingers: Vec<Fingers>,
     carries_fingers: bool,
@@ -145,15 +139,24 @@ impl Points {
     /// Forgets all points, keeping the memory.
     pub fn clear(&mut self) {
         self.blocks.clear();
+        self.ids.clear();
         self.fingers.clear();
         self.len = 0;
     }
 
     /// Makes room for `len` points, to be written with [`Points::set`].
     pub fn resize(&mut self, len: usize) {
-        self.blocks.resize_with(len.div_ceil(LANES), Block::default);
+        let blocks = len.div_ceil(LANES);
+        // All points of a body start in one band.
+        if self.blocks.capacity() > 64 + 8 * blocks {
+            self.blocks.shrink_to(2 * blocks);
+            self.ids.shrink_to(2 * blocks);
+            self.fingers.shrink_to(2 * blocks);
+        }
+        self.blocks.resize_with(blocks, Block::default);
+        self.ids.resize(blocks, [u32::MAX; LANES]);
         if self.carries_fingers {
-            self.fingers.resize_with(len.div_ceil(LANES), Fingers::default);
+            self.fingers.resize_with(blocks, Fingers::default);
         }
         self.len = len;
     }
@@ -161,6 +164,7 @@ impl Points {
     /// Writes point `i`.
     pub fn set(&mut self, i: usize, p: &Particle) {
         self.blocks[i / LANES].set(i % LANES, p);
+        self.ids[i / LANES][i % LANES] = p.id;
         if let Some(f) = self.fingers.get_mut(i / LANES) {
             let b = &p.state.finger;
             (f[0][i % LANES], f[1][i % LANES], f[2][i % LANES]) = (b.xx, b.yy, b.xy);
@@ -186,12 +190,20 @@ impl Points {
         if used > 0
             && let Some(last) = self.blocks.last_mut()
         {
-            let p = last.get(used - 1);
-            for l in used..LANES {
-                last.set(l, &p);
-                last.id[l] = u32::MAX;
-            }
+            let p = last.get(used - 1, u32::MAX);
+            (used..LANES).for_each(|l| last.set(l, &p));
         }
+    }
+
+    /// Number of blocks.
+    pub fn block_count(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Numbers of the points of each block within their body.
+    #[inline(always)]
+    pub fn ids(&self) -> &[[u32; LANES]] {
+        &self.ids
     }
 
     /// A block, if there are so many.
@@ -207,27 +219,18 @@ impl Points {
         self.blocks.iter().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
     }
 
-    /// The blocks, mutable, with the number of real points in each.
+    /// The blocks, mutable, and their left Cauchy-Green tensors, for laws that carry them, or else none.
     #[inline(always)]
-    pub fn blocks_mut(&mut self) -> impl Iterator<Item = (&mut Block, usize)> {
-        let len = self.len;
-        self.blocks.iter_mut().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
-    }
-
-    /// The same with the left Cauchy-Green tensors, for laws that carry them.
-    #[inline(always)]
-    pub fn blocks_and_fingers_mut(&mut self) -> impl Iterator<Item = (&mut Block, usize, Option<&mut Fingers>)> {
-        let len = self.len;
-        let mut fingers = self.fingers.iter_mut();
-        self.blocks.iter_mut().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES), fingers.next()))
+    pub fn blocks_mut(&mut self) -> (&mut [Block], &mut [Fingers]) {
+        (&mut self.blocks, &mut self.fingers)
     }
 
     /// All points in order.
     pub fn iter(&self) -> impl Iterator<Item = Particle> {
-        self.blocks().enumerate().flat_map(|(i, (b, n))| {
+        self.blocks().zip(&self.ids).enumerate().flat_map(|(i, ((b, n), ids))| {
             let fingers = self.fingers.get(i);
             (0..n).map(move |l| {
-                let mut p = b.get(l);
+                let mut p = b.get(l, ids[l]);
                 if let Some(f) = fingers {
                     p.state.finger = Finger { xx: f[0][l], yy: f[1][l], xy: f[2][l] };
                 }
@@ -238,7 +241,9 @@ impl Points {
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.blocks.capacity() * size_of::<Block>() + self.fingers.capacity() * size_of::<Fingers>()
+        self.blocks.capacity() * size_of::<Block>()
+            + self.ids.capacity() * size_of::<[u32; LANES]>()
+            + self.fingers.capacity() * size_of::<Fingers>()
     }
 }
 

@@ -188,7 +188,10 @@ impl Sorter {
             // Columns cut[0] .. cut[1] + reach: base column c of the sort is column c + DRIFT of the grid.
             let reach = grid.column_start(cut[1] + STENCIL - 1 + 2 * DRIFT) - band.first_node;
             let owned = if cut[1] < base_columns { grid.column_start(cut[1]) - band.first_node } else { reach };
-            band.nodes.resize(owned, reach);
+            (band.owned, band.reach) = (owned, reach);
+            band.field_force.clear();
+            band.shared.clear();
+            band.open.clear();
             band.sums = BandSums::default();
         }
         for body in 0..bodies.len() {

@@ -33,6 +33,7 @@ fn sorted(places: &[[f64; 2]], domain: [[f64; 2]; 2]) -> Sorted {
     // A second sort finds what the first has left.
     sorter.sort(&rules, &mut bands, &mut grid, &mut departed);
     sorter.sort(&rules, &mut bands, &mut grid, &mut departed);
+    bands.iter_mut().for_each(Band::make_room);
     Sorted { bands, grid, departed, starts }
 }
 
@@ -112,7 +113,7 @@ fn bands_share_out_points_and_nodes() {
         let (mut seen, mut owned) = (0, 0);
         for (k, band) in bands.iter().enumerate() {
             assert_eq!(band.first_node, owned, "bands follow each other");
-            owned += band.owned();
+            owned += band.owned;
             let points: Vec<Particle> = band.points[0].iter().collect();
             seen += points.len();
             assert!(!band.is_empty() && band.len() == points.len());
@@ -130,7 +131,7 @@ fn bands_share_out_points_and_nodes() {
                 // No column more than it takes.
                 let without_last = starts.iter().filter(|s| s[0] < end - 1).count();
                 assert!(without_last < BAND_POINTS || end - first == MIN_COLUMNS as i64 || k + 1 == last);
-                assert_eq!(column(band.first_node + band.nodes.sums.len() - 1), end - 1 + PAST);
+                assert_eq!(column(band.first_node + band.reach - 1), end - 1 + PAST);
             } else if k > 0 {
                 assert!(points.len() >= BAND_POINTS / 2);
                 assert!(grid.columns.len() - column_of(&grid, band.first_node) >= MIN_COLUMNS + PAST as usize + DRIFT);
@@ -144,10 +145,12 @@ fn bands_share_out_points_and_nodes() {
                 let columns = starts.last().expect("a point")[0] + 1 - cut;
                 assert!(rest < BAND_POINTS / 2 || columns < MIN_COLUMNS as i64, "{rest} {columns}");
             }
-            let reach = band.nodes.sums.len();
-            assert!(k < last || band.first_node + reach == grid.len() && reach == band.owned());
-            let sizes = [band.nodes.motion.len(), band.nodes.remapped.len() - 1, band.nodes.strain_velocity.len() - 1];
-            assert_eq!(sizes, [reach; 3]);
+            let reach = band.reach;
+            assert!(k < last || band.first_node + reach == grid.len() && reach == band.owned);
+            let work = &band.work;
+            assert_eq!([work.sums.len(), work.motion.len()], [reach; 2]);
+            assert_eq!([work.remapped.len(), work.strain_velocity.len()], [reach + 1; 2]);
+            assert_eq!([work.mass.len(), work.moved.len()], [band.owned, points.len().div_ceil(8)]);
         }
         assert_eq!((seen, owned), (places.len(), grid.len()));
     }

@@ -3,7 +3,7 @@
 //! A node near the left edge of a band is also reached by points of the band before: their sum comes first, then the band's own.
 //! What the band before needs to see of the result is copied back into its reach.
 
-use crate::band::{Band, NodeSum, Nodes, OpenNode};
+use crate::band::{Band, NodeSum, OpenNode};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Hold, Tally};
 
@@ -58,10 +58,10 @@ pub struct BodyForces {
 pub fn distribute_holds(holds: &[Hold], boundaries: usize, bands: &mut [Band]) {
     let mut rest = holds;
     for band in bands {
-        let end = band.first_node + band.owned();
+        let end = band.first_node + band.owned;
         let (own, others) = rest.split_at(rest.partition_point(|h| (h.node as usize) < end));
-        band.nodes.holds.clear();
-        band.nodes.holds.extend_from_slice(own);
+        band.holds.clear();
+        band.holds.extend_from_slice(own);
         band.tallies.clear();
         band.tallies.resize(boundaries, Tally::default());
         rest = others;
@@ -81,8 +81,8 @@ fn total(before: &[NodeSum], own: &[NodeSum], i: usize) -> NodeSum {
 }
 
 /// What the band before adds to the first nodes of this one, for one of its nodal fields.
-fn tail<T>(before: Option<&Band>, field: impl Fn(&Nodes) -> &[T]) -> &[T] {
-    before.map_or(&[], |b| field(&b.nodes).get(b.owned()..).unwrap_or_default())
+fn tail<T>(before: Option<&Band>, field: impl Fn(&Band) -> &[T]) -> &[T] {
+    before.map_or(&[], |b| field(b).get(b.owned..).unwrap_or_default())
 }
 
 /// Copies a nodal field of the first nodes of a band into the reach of the band before.
@@ -94,35 +94,35 @@ fn hand_back<T: Copy>(own: &[T], owned_before: usize, before: &mut [T]) {
 
 /// Nodal masses and velocities of the step's start, for a stress update before the momentum balance (USF).
 pub fn old_velocities(mut before: Option<&mut Band>, band: &mut Band) {
-    let sums = tail(before.as_deref(), |n| &n.sums);
-    let nodes = &mut band.nodes;
-    for i in 0..nodes.mass.len() {
-        let sum = total(sums, &nodes.sums, i);
-        nodes.mass[i] = sum.mass();
-        nodes.strain_velocity[i] = per_mass(sum.mass(), sum.momentum());
+    let sums = tail(before.as_deref(), |b| &b.work.sums);
+    let work = &mut band.work;
+    for i in 0..work.mass.len() {
+        let sum = total(sums, &work.sums, i);
+        work.mass[i] = sum.mass();
+        work.strain_velocity[i] = per_mass(sum.mass(), sum.momentum());
     }
     project(band);
     if let Some(before) = &mut before {
-        let owned = before.owned();
-        hand_back(&band.nodes.strain_velocity, owned, &mut before.nodes.strain_velocity);
+        let owned = before.owned;
+        hand_back(&band.work.strain_velocity, owned, &mut before.work.strain_velocity);
     }
 }
 
 /// Velocities from the momentum that the points carry after their update (MUSL), for the stress update.
 pub fn remapped_velocities(mut before: Option<&mut Band>, band: &mut Band) {
-    let momenta = tail(before.as_deref(), |n| &n.remapped);
-    let nodes = &mut band.nodes;
-    for (i, &m) in nodes.mass.iter().enumerate() {
-        let mut p = nodes.remapped[i];
+    let momenta = tail(before.as_deref(), |b| &b.work.remapped);
+    let work = &mut band.work;
+    for (i, &m) in work.mass.iter().enumerate() {
+        let mut p = work.remapped[i];
         if let Some(first) = momenta.get(i) {
             p = [p[0] + first[0], p[1] + first[1]];
         }
-        nodes.strain_velocity[i] = per_mass(m, p);
+        work.strain_velocity[i] = per_mass(m, p);
     }
     project(band);
     if let Some(before) = &mut before {
-        let owned = before.owned();
-        hand_back(&band.nodes.strain_velocity, owned, &mut before.nodes.strain_velocity);
+        let owned = before.owned;
+        hand_back(&band.work.strain_velocity, owned, &mut before.work.strain_velocity);
     }
 }
 
@@ -138,8 +138,8 @@ fn per_mass(m: f64, p: [f64; 2]) -> [f64; 2] {
 
 /// Applies the contact state of each held node to the velocity that strains the material.
 fn project(band: &mut Band) {
-    let velocity = &mut band.nodes.strain_velocity;
-    for holds in band.nodes.holds.chunk_by(|a, b| a.node == b.node) {
+    let velocity = &mut band.work.strain_velocity;
+    for holds in band.holds.chunk_by(|a, b| a.node == b.node) {
         nodes::project(holds, &mut velocity[holds[0].node as usize - band.first_node]);
     }
 }
@@ -147,7 +147,7 @@ fn project(band: &mut Band) {
 /// Momentum balance of every node and its contact with the boundaries: v = v + dt (f/m + g), then drags, then contact. Nodes that
 /// other velocity fields reach are left open.
 pub fn balance(before: Option<&mut Band>, band: &mut Band, boundaries: &[Boundary], forces: BodyForces, dt: f64) {
-    if band.nodes.shared.is_empty() {
+    if band.shared.is_empty() {
         balance_nodes::<false>(before, band, boundaries, forces, dt);
     } else {
         balance_nodes::<true>(before, band, boundaries, forces, dt);
@@ -163,34 +163,34 @@ fn balance_nodes<const SHARED: bool>(
 ) {
     band.tallies.fill(Tally::default());
     band.distributed = Distributed::default();
-    sum_field(before.as_deref(), &mut band.nodes);
-    let sums = tail(before.as_deref(), |n| &n.sums);
-    let nodes = &mut band.nodes;
+    sum_field(before.as_deref(), band);
+    let sums = tail(before.as_deref(), |b| &b.work.sums);
+    let work = &mut band.work;
     let (mut next_hold, mut next_shared) = (0, 0);
-    for i in 0..nodes.mass.len() {
-        let sum = total(sums, &nodes.sums, i);
+    for i in 0..work.mass.len() {
+        let sum = total(sums, &work.sums, i);
         let m = sum.mass();
-        nodes.mass[i] = m;
+        work.mass[i] = m;
         let first_hold = next_hold;
-        while nodes.holds.get(next_hold).is_some_and(|h| h.node as usize == band.first_node + i) {
+        while band.holds.get(next_hold).is_some_and(|h| h.node as usize == band.first_node + i) {
             next_hold += 1;
         }
-        let open = SHARED && nodes.shared.get(next_shared).is_some_and(|&s| s as usize == i);
+        let open = SHARED && band.shared.get(next_shared).is_some_and(|&s| s as usize == i);
         next_shared += usize::from(open);
         if m <= 0.0 {
             if open {
-                nodes.open[next_shared - 1] = OpenNode::default();
+                band.open[next_shared - 1] = OpenNode::default();
             }
-            nodes.motion[i] = [0.0; 4];
-            nodes.strain_velocity[i] = [0.0; 2];
-            nodes.holds[first_hold..next_hold].iter_mut().for_each(Hold::let_go);
+            work.motion[i] = [0.0; 4];
+            work.strain_velocity[i] = [0.0; 2];
+            band.holds[first_hold..next_hold].iter_mut().for_each(Hold::let_go);
             continue;
         }
         let per_m = 1.0 / m;
         let p = sum.momentum();
         let old = [p[0] * per_m, p[1] * per_m];
         let mut f = sum.force();
-        let field = nodes.field_force.get(i).copied();
+        let field = band.field_force.get(i).copied();
         if let Some(field) = field {
             f = [f[0] + field[0], f[1] + field[1]];
         }
@@ -212,11 +212,11 @@ fn balance_nodes<const SHARED: bool>(
         }
         if open {
             let field = field.map_or([0.0; 2], |f| [f[0] * dt, f[1] * dt]);
-            nodes.open[next_shared - 1] = OpenNode { mass: m, old, free: v, damped, braked, field };
+            band.open[next_shared - 1] = OpenNode { mass: m, old, free: v, damped, braked, field };
             continue;
         }
         if next_hold > first_hold {
-            let holds = &mut nodes.holds[first_hold..next_hold];
+            let holds = &mut band.holds[first_hold..next_hold];
             nodes::solve(holds, boundaries, m, old, &mut v, &mut band.tallies);
         }
         let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
@@ -229,29 +229,29 @@ fn balance_nodes<const SHARED: bool>(
         if let Some(f) = field {
             band.distributed.field.add([f[0] * dt, f[1] * dt], mean);
         }
-        nodes.motion[i] = [v[0], v[1], v[0] - old[0], v[1] - old[1]];
-        nodes.strain_velocity[i] = v;
+        work.motion[i] = [v[0], v[1], v[0] - old[0], v[1] - old[1]];
+        work.strain_velocity[i] = v;
     }
     if let Some(before) = &mut before {
-        let owned = before.owned();
-        hand_back(&band.nodes.motion, owned, &mut before.nodes.motion);
-        hand_back(&band.nodes.strain_velocity, owned, &mut before.nodes.strain_velocity);
+        let owned = before.owned;
+        hand_back(&band.work.motion, owned, &mut before.work.motion);
+        hand_back(&band.work.strain_velocity, owned, &mut before.work.strain_velocity);
     }
 }
 
 /// Gives an open node its velocity: books the drags, and lets both bands that reach the node see how it moves. `node` counts
 /// from the band's first, `index` is its place among the open ones.
 pub fn close(before: Option<&mut Band>, band: &mut Band, node: usize, index: usize, v: [f64; 2]) {
-    let open = band.nodes.open[index];
+    let open = band.open[index];
     let mean = [0.5 * (open.old[0] + v[0]), 0.5 * (open.old[1] + v[1])];
     band.distributed.damping.add(open.damped, mean);
     band.distributed.side_walls.add(open.braked, mean);
     band.distributed.field.add(open.field, mean);
     let motion = [v[0], v[1], v[0] - open.old[0], v[1] - open.old[1]];
-    band.nodes.motion[node] = motion;
+    band.work.motion[node] = motion;
     if let Some(before) = before {
-        let past = before.owned() + node;
-        if let Some(seen) = before.nodes.motion.get_mut(past) {
+        let past = before.owned + node;
+        if let Some(seen) = before.work.motion.get_mut(past) {
             *seen = motion;
         }
     }
@@ -259,19 +259,19 @@ pub fn close(before: Option<&mut Band>, band: &mut Band, node: usize, index: usi
 
 /// Sets the velocity that strains the material at one node, for both bands that reach it.
 pub fn set_strain_velocity(before: Option<&mut Band>, band: &mut Band, node: usize, v: [f64; 2]) {
-    band.nodes.strain_velocity[node] = v;
+    band.work.strain_velocity[node] = v;
     if let Some(before) = before {
-        let past = before.owned() + node;
-        if let Some(seen) = before.nodes.strain_velocity.get_mut(past) {
+        let past = before.owned + node;
+        if let Some(seen) = before.work.strain_velocity.get_mut(past) {
             *seen = v;
         }
     }
 }
 
 /// Completes the force of a body-force field, if there is one.
-fn sum_field(before: Option<&Band>, nodes: &mut Nodes) {
-    let past = tail(before, |n| &n.field_force);
-    for (own, first) in nodes.field_force.iter_mut().zip(past) {
+fn sum_field(before: Option<&Band>, band: &mut Band) {
+    let past = tail(before, |b| &b.field_force);
+    for (own, first) in band.field_force.iter_mut().zip(past) {
         *own = [own[0] + first[0], own[1] + first[1]];
     }
 }

@@ -2,7 +2,7 @@
 
 use super::field::VelocityField;
 use super::{AccelerationField, ContactPoint, PicShare, Simulation, potential};
-use crate::band::Band;
+use crate::band::{Band, Workspace};
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
@@ -85,7 +85,7 @@ impl Simulation {
     /// Adds a field of accelerations to gravity, as manufactured solutions need, or removes it.
     pub fn set_field(&mut self, field: Option<AccelerationField>) {
         self.field = field;
-        self.fields.iter_mut().flat_map(|f| &mut f.bands).for_each(|band| band.nodes.field_force.clear());
+        self.fields.iter_mut().flat_map(|f| &mut f.bands).for_each(|band| band.field_force.clear());
     }
 
     /// Moves a boundary at a velocity, m/s. Nodes it reaches are found at the next sort, so keep it slow against h per sort.
@@ -162,7 +162,8 @@ impl Simulation {
 
     /// Bytes held by points, accumulators and nodes.
     pub fn bytes(&self) -> usize {
-        self.bands().map(Band::bytes).sum::<usize>() + self.fields.iter().map(|f| f.grid.bytes()).sum::<usize>()
+        let lent: usize = self.pools.iter().flatten().map(Workspace::bytes).sum();
+        lent + self.bands().map(Band::bytes).sum::<usize>() + self.fields.iter().map(|f| f.grid.bytes()).sum::<usize>()
     }
 
     /// What each boundary did in the last step.
@@ -193,7 +194,7 @@ impl Simulation {
 
     /// What boundaries did to single nodes in the last step, in the order of the nodes.
     pub fn holds(&self) -> impl Iterator<Item = &Hold> {
-        self.bands().flat_map(|b| &b.nodes.holds)
+        self.bands().flat_map(|b| &b.holds)
     }
 
     fn bands(&self) -> impl Iterator<Item = &Band> {

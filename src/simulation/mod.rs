@@ -13,9 +13,9 @@ use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
 use coupling::Coupling;
 use failure::CRUSHED;
 use field::VelocityField;
-use implicit::ImplicitBody;
+use implicit::{ImplicitBody, Turn};
 use stages::Stage;
-use sweep::On;
+use sweep::{On, Pool};
 
 mod access;
 mod coupling;
@@ -53,6 +53,8 @@ pub struct Simulation {
     fields: Vec<VelocityField>,
     /// Where the bands of each field are during a sweep.
     bands: Vec<Vec<Band>>,
+    /// What they work with where one sweep does all of a step.
+    pools: Vec<Pool>,
     coupling: Coupling,
     implicit: Vec<ImplicitBody>,
     speeds: Vec<f64>,
@@ -108,6 +110,7 @@ impl Simulation {
             bodies,
             boundaries,
             bands: vec![Vec::new(); fields.len()],
+            pools: Vec::new(),
             fields,
             time: 0.0,
             steps: 0,
@@ -131,7 +134,7 @@ impl Simulation {
         let dt = self.time_step.dt;
         let stages = self.numerics.scheme.stages();
         if self.coupling.is_empty() {
-            self.sweep_all(stages, dt);
+            self.sweep_all(stages, dt, None);
         } else {
             self.sweep_coupled(stages, dt);
         }
@@ -144,15 +147,32 @@ impl Simulation {
         self.close_step(dt)
     }
 
-    /// Does stages of a step on all fields but those of bodies in implicit steps.
-    fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64) {
+    /// Does stages of a step on all fields but those of bodies in implicit steps, which take their `turn` meanwhile.
+    fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64, turn: Option<Turn>) {
         // The bands leave their fields, which all threads read, for as long as they are worked on.
-        let mut bands = std::mem::take(&mut self.bands);
+        let (mut bands, mut pools) = (std::mem::take(&mut self.bands), std::mem::take(&mut self.pools));
         self.swap_bands(&mut bands);
+        let mut implicit = std::mem::take(&mut self.implicit);
+        implicit.iter_mut().for_each(|b| std::mem::swap(&mut b.own, &mut self.fields[b.field]));
         let step = self.begin(dt);
-        sweep::sweep(stages, &mut bands, &|&stage, k, before, band| step.run(stage, &self.fields[k], before, band));
+        let lent = self.coupling.is_empty().then_some(&mut pools);
+        let sweep = || {
+            sweep::sweep(stages, &mut bands, lent, &|&stage, k, before, band| {
+                step.run(stage, &self.fields[k], before, band);
+            });
+        };
+        match turn.filter(|_| !implicit.is_empty()) {
+            None => sweep(),
+            Some(turn) => {
+                sweep::beside(sweep, || {
+                    implicit.iter_mut().for_each(|b| b.take_turn(turn, &self.boundaries, self.forces, dt))
+                });
+            }
+        }
+        implicit.iter_mut().for_each(|b| std::mem::swap(&mut b.own, &mut self.fields[b.field]));
+        self.implicit = implicit;
         self.swap_bands(&mut bands);
-        self.bands = bands;
+        (self.bands, self.pools) = (bands, pools);
     }
 
     fn swap_bands(&mut self, bands: &mut [Vec<Band>]) {
@@ -169,16 +189,17 @@ impl Simulation {
             self.coupling.rebuild(&mut self.fields);
             self.implicit.iter_mut().for_each(|b| b.follow(&self.fields[b.field]));
         }
+        let mut after = None;
         for part in stages.split_inclusive(|(on, _)| *on == On::Nodes) {
-            self.sweep_all(part, dt);
-            match part.last() {
-                Some((_, Stage::Momentum)) => {
-                    self.predict(dt);
-                    let (fields, shape) = (&mut self.fields, self.numerics.shape);
-                    self.coupling.exchange(fields, &self.boundaries, shape, dt, &mut self.implicit);
-                    self.finish(dt);
+            let last = part.last().map(|(_, stage)| *stage);
+            self.sweep_all(part, dt, if last == Some(Stage::Momentum) { Some(Turn::Predict) } else { after.take() });
+            let Self { fields, coupling, boundaries, numerics, implicit, .. } = self;
+            match last {
+                Some(Stage::Momentum) => {
+                    sweep::alone(|| coupling.exchange(fields, boundaries, numerics.shape, dt, implicit));
+                    after = Some(Turn::Finish);
                 }
-                Some((_, Stage::RemappedVelocities | Stage::OldVelocities)) => self.coupling.project(&mut self.fields),
+                Some(Stage::RemappedVelocities | Stage::OldVelocities) => sweep::alone(|| coupling.project(fields)),
                 _ => {}
             }
         }
@@ -194,24 +215,6 @@ impl Simulation {
         let last = self.time_step.dt;
         let keep = last <= limit.dt && last >= (1.0 - 2.0 * SPARE) * limit.dt;
         TimeStep { dt: if keep { last } else { (1.0 - SPARE) * limit.dt }, ..limit }
-    }
-
-    /// Lets bodies in implicit steps find how they would move without contact.
-    fn predict(&mut self, dt: f64) {
-        for k in 0..self.implicit.len() {
-            let forces = self.forces_on(self.implicit[k].field);
-            let body = &mut self.implicit[k];
-            body.predict(&mut self.fields[body.field], forces, dt);
-        }
-    }
-
-    /// Moves bodies in implicit steps.
-    fn finish(&mut self, dt: f64) {
-        for k in 0..self.implicit.len() {
-            let forces = self.forces_on(self.implicit[k].field);
-            let body = &mut self.implicit[k];
-            body.finish(&mut self.fields[body.field], &self.boundaries, forces, dt);
-        }
     }
 
     /// Books what acted from outside.
@@ -273,6 +276,9 @@ impl Simulation {
         let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
         self.fields[field].sort(&rules, &self.boundaries);
         self.coupling.stale = true;
+        if !self.coupling.is_empty() {
+            self.fields[field].bands.iter_mut().for_each(Band::make_room);
+        }
         if let Some(body) = self.implicit.iter_mut().find(|b| b.field == field) {
             body.rebuild(field, &self.fields[field], self.numerics.shape);
         }

@@ -3,7 +3,7 @@
 use super::field::VelocityField;
 use super::sweep::On;
 use super::{AccelerationField, Scheme, Simulation};
-use crate::band::{Band, BandSums, NodeSum};
+use crate::band::{Band, BandSums, NodeSum, Workspace};
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::momentum::{self, BodyForces};
@@ -67,11 +67,6 @@ pub(super) struct Step<'a> {
 }
 
 impl Simulation {
-    /// What acts on every node of a velocity field.
-    pub(super) fn forces_on(&self, field: usize) -> BodyForces {
-        self.fields[field].forces(self.forces)
-    }
-
     /// The step of `dt` seconds that begins now.
     pub(super) fn begin(&self, dt: f64) -> Step<'_> {
         let scheme = self.numerics.scheme;
@@ -110,33 +105,35 @@ impl Step<'_> {
 
     fn points_to_grid(&self, what: Scatter, of: &VelocityField, band: &mut Band) {
         let map = NodeMap::new(&of.grid, band.first_node);
-        let nodes = &mut band.nodes;
         if what != Scatter::Force {
-            nodes.sums.fill(NodeSum::default());
+            band.make_room();
+            band.work.sums.fill(NodeSum::default());
         }
         for (body, points) in of.bodies.iter().zip(&band.points) {
             let constants = constants(body, self.side_friction);
-            transfer::scatter(what, self.half_width(body), &map, constants, points, &mut nodes.sums);
+            transfer::scatter(what, self.half_width(body), &map, constants, points, &mut band.work.sums);
         }
         let Some(AccelerationField(field)) = self.field.filter(|_| what != Scatter::Inertia) else { return };
-        nodes.field_force.clear();
-        nodes.field_force.resize(nodes.sums.len(), [0.0; 2]);
+        band.field_force.clear();
+        band.field_force.resize(band.reach, [0.0; 2]);
         for (body, points) in of.bodies.iter().zip(&band.points) {
             let at = |p: &Particle| field(p, self.time);
-            transfer::scatter_field(self.half_width(body), &map, body.point_mass, &at, points, &mut nodes.field_force);
+            transfer::scatter_field(self.half_width(body), &map, body.point_mass, &at, points, &mut band.field_force);
         }
     }
 
     fn grid_to_points(&self, of: &VelocityField, band: &mut Band) {
         let map = NodeMap::new(&of.grid, band.first_node);
-        let nodes = &mut band.nodes;
+        let Workspace { motion, remapped, moved, .. } = &mut band.work;
         if self.velocity.remap {
-            nodes.remapped.fill([0.0; 2]);
+            remapped.fill([0.0; 2]);
         }
-        let mut sums = BandSums::default();
+        let (mut sums, mut moved) = (BandSums::default(), &mut moved[..]);
         for (body, points) in of.bodies.iter().zip(&mut band.points) {
+            let (displacement, rest) = moved.split_at_mut(points.block_count());
+            moved = rest;
             let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part = transfer::gather_velocity(l, &map, c, self.velocity, &nodes.motion, points, &mut nodes.remapped);
+            let part = transfer::gather_velocity(l, &map, c, self.velocity, motion, points, displacement, remapped);
             sums.kinetic += part.kinetic;
             sums.pic_loss += part.pic_loss;
             sums.max_speed = sums.max_speed.max(part.max_speed);
@@ -149,11 +146,14 @@ impl Step<'_> {
 
     fn update_stress(&self, of: &VelocityField, band: &mut Band) {
         let map = NodeMap::new(&of.grid, band.first_node);
-        let velocity = &band.nodes.strain_velocity;
+        let Workspace { strain_velocity: velocity, moved, .. } = &mut band.work;
+        let mut moved = &mut moved[..];
         let (mut work, mut smallest) = (0.0, f64::INFINITY);
         for (body, points) in of.bodies.iter().zip(&mut band.points) {
+            let (displacement, rest) = moved.split_at_mut(points.block_count());
+            moved = rest;
             let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part = transfer::update_stress(l, body.law, &map, c, self.stress, velocity, points);
+            let part = transfer::update_stress(l, body.law, &map, c, self.stress, velocity, points, displacement);
             work += part.internal_work;
             smallest = smallest.min(part.min_volume_ratio);
         }

@@ -9,17 +9,24 @@
 //!
 //! The bands of several fields are swept as one list, so that the fields do not wait for each other. Bands that meet in the list
 //! and belong to different fields do not depend on each other; that a seam there waits all the same does no harm.
+//!
+//! Where one sweep does all of a step, each part has a pool of workspaces, which a band takes from as the sweep reaches it and
+//! gives back to when its last stage is done. A few serve all bands and stay in cache; the one given back last is taken first.
 
 use super::stretch::Stretch;
-use crate::band::Band;
+use crate::band::{Band, Workspace};
+use std::mem::take;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Looks at a flag before a thread that waits for another may fall asleep: some ten microseconds.
-const LOOKS: u32 = 2000;
+/// Looks at a flag before a thread that waits for another may fall asleep: a tenth of a millisecond.
+const LOOKS: u32 = 10_000;
 /// Most parts a sweep is divided into.
 const MAX_PARTS: usize = 64;
 /// Bands that make a part worth a thread.
 const PART_BANDS: usize = 4;
+
+/// Workspaces that serve the bands of a part.
+pub type Pool = Vec<Workspace>;
 
 /// What a stage works on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,18 +48,25 @@ fn left_of_seam<S>(stages: &[(On, S)]) -> usize {
 }
 
 /// Does all stages on all bands of all fields; `work` does one of them on one band, and is told the number of the field. Node
-/// stages are given the band before it as well.
+/// stages are given the band before it as well. Bands are lent workspaces from `pools`, if there are any, or have their own.
 pub fn sweep<S: Sync>(
     stages: &[(On, S)],
     fields: &mut [Vec<Band>],
+    mut pools: Option<&mut Vec<Pool>>,
     work: &(impl Fn(&S, usize, Option<&mut Band>, &mut Band) + Sync),
 ) {
     let threads = rayon::current_num_threads();
     let longest = left_of_seam(stages);
     let bands: usize = fields.iter().map(Vec::len).sum();
     let parts = threads.min(bands / PART_BANDS.max(2 * longest)).min(MAX_PARTS);
+    if let Some(pools) = &mut pools
+        && pools.len() < parts.max(1)
+    {
+        pools.resize_with(parts.max(1), Pool::new);
+    }
+    let pools = pools.map_or(&mut [][..], |pools| &mut pools[..]);
     if parts < 2 {
-        return part(stages, &mut Stretch::new(fields), [false; 2], work);
+        return part(stages, &mut Stretch::new(fields), pools.first_mut(), [false; 2], work);
     }
     // Parts of about as many points each.
     let loads = || fields.iter().flatten().map(Band::len);
@@ -69,8 +83,13 @@ pub fn sweep<S: Sync>(
         *seam = band;
     }
     let (seams, mut all) = (&seams[..parts - 1], Stretch::new(fields));
-    parts_between(stages, &mut all, seams, 0, [false; 2], work);
+    parts_between(stages, &mut all, pools, seams, 0, [false; 2], work);
     around_seams(stages, &mut all, seams, 0, longest, work);
+    for (k, &seam) in seams.iter().enumerate() {
+        for (pool, bands) in pools.iter_mut().skip(k).zip([seam - longest..seam, seam..seam + longest]) {
+            bands.for_each(|band| pool.push(take(&mut all.at(band).2.work)));
+        }
+    }
 }
 
 /// Sweeps the parts between seams side by side. `first` is the number of the first of `bands`; `open` says whether other parts
@@ -78,19 +97,21 @@ pub fn sweep<S: Sync>(
 fn parts_between<S: Sync>(
     stages: &[(On, S)],
     bands: &mut Stretch,
+    pools: &mut [Pool],
     seams: &[usize],
     first: usize,
     open: [bool; 2],
     work: &(impl Fn(&S, usize, Option<&mut Band>, &mut Band) + Sync),
 ) {
     let Some(&seam) = seams.get(seams.len() / 2) else {
-        return part(stages, bands, open, work);
+        return part(stages, bands, pools.first_mut(), open, work);
     };
     let (mut before, mut after) = bands.split_at(seam - first);
+    let (pools_before, pools_after) = pools.split_at_mut(pools.len().min(seams.len() / 2 + 1));
     let (seams_before, seams_after) = (&seams[..seams.len() / 2], &seams[seams.len() / 2 + 1..]);
     together(
-        || parts_between(stages, &mut before, seams_before, first, [open[0], true], work),
-        || parts_between(stages, &mut after, seams_after, seam, [true, open[1]], work),
+        || parts_between(stages, &mut before, pools_before, seams_before, first, [open[0], true], work),
+        || parts_between(stages, &mut after, pools_after, seams_after, seam, [true, open[1]], work),
     );
 }
 
@@ -98,34 +119,70 @@ fn parts_between<S: Sync>(
 /// that falls asleep takes as long to wake up as a small sweep takes.
 pub fn together(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     let [a_done, b_begun, b_done] = [const { AtomicBool::new(false) }; 3];
-    let is = |flag: &AtomicBool| flag.load(Ordering::Acquire);
-    let wait = |go_on: &dyn Fn() -> bool| (0..LOOKS).take_while(|_| go_on()).for_each(|_| std::hint::spin_loop());
     rayon::join(
         || {
             a();
             a_done.store(true, Ordering::Release);
             // What no other thread has taken up yet is done by this one, after this.
-            wait(&|| is(&b_begun) && !is(&b_done));
+            wait(|| is(&b_begun) && !is(&b_done));
         },
         || {
             b_begun.store(true, Ordering::Release);
             b();
             b_done.store(true, Ordering::Release);
-            wait(&|| !is(&a_done));
+            wait(|| !is(&a_done));
         },
     );
 }
 
-/// Sweeps one part as far as it does not depend on what lies beyond its open ends.
+/// Does what only one thread can, while another stays awake.
+pub fn alone(work: impl FnOnce() + Send) {
+    together(work, || {});
+}
+
+/// Does a sweep and something else at its side. Either may use several threads: the one that is done first helps the other.
+pub fn beside(sweep: impl FnOnce() + Send, work: impl FnOnce() + Send) {
+    let [begun, done] = [const { AtomicBool::new(false) }; 2];
+    rayon::join(
+        || {
+            sweep();
+            wait(|| {
+                rayon::yield_now();
+                is(&begun) && !is(&done)
+            });
+        },
+        || {
+            begun.store(true, Ordering::Release);
+            work();
+            done.store(true, Ordering::Release);
+        },
+    );
+}
+
+fn is(flag: &AtomicBool) -> bool {
+    flag.load(Ordering::Acquire)
+}
+
+fn wait(go_on: impl Fn() -> bool) {
+    (0..LOOKS).take_while(|_| go_on()).for_each(|_| std::hint::spin_loop());
+}
+
+/// Sweeps one part as far as it does not depend on what lies beyond its open ends. Bands beside those keep the workspace that they
+/// are lent.
 fn part<S>(
     stages: &[(On, S)],
     bands: &mut Stretch,
+    mut pool: Option<&mut Pool>,
     open: [bool; 2],
     work: &impl Fn(&S, usize, Option<&mut Band>, &mut Band),
 ) {
     let count = bands.len();
-    let longest = stages.len().checked_sub(1).map_or(0, |last| lag(stages, last));
+    let longest = left_of_seam(stages);
+    let [keep_first, keep_last] = open.map(|open| if open { longest } else { 0 });
     for front in 0..count + longest {
+        if let Some(pool) = pool.as_mut().filter(|_| front < count) {
+            bands.at(front).2.work = pool.pop().unwrap_or_default();
+        }
         for (number, (on, stage)) in stages.iter().enumerate() {
             let lag = lag(stages, number);
             let low = match (open[0], on) {
@@ -137,6 +194,11 @@ fn part<S>(
             if let Some(k) = front.checked_sub(lag).filter(|k| (low..high).contains(k)) {
                 at(bands, k, stage, work);
             }
+        }
+        // Nothing looks back at this one any more.
+        let done = front.checked_sub(longest).filter(|k| (keep_first..count - keep_last).contains(k));
+        if let (Some(pool), Some(done)) = (pool.as_mut(), done) {
+            pool.push(take(&mut bands.at(done).2.work));
         }
     }
 }
@@ -209,8 +271,14 @@ mod tests {
         pool.install(|| {
             let work = |&stage: &usize, field: usize, before: Option<&mut Band>, band: &mut Band| {
                 let k = band.first_node;
+                // Each has its workspace to itself, from its first stage to the last that looks at it.
+                if stage == 0 {
+                    band.work.mass = vec![k as f64];
+                }
+                assert_eq!(band.work.mass, [k as f64]);
                 if STAGES[stage].0 == On::Nodes {
-                    assert_eq!(before.map(|b| b.first_node), k.checked_sub(1), "the band before {k}");
+                    assert_eq!(before.as_ref().map(|b| b.first_node), k.checked_sub(1), "the band before {k}");
+                    assert!(before.is_none_or(|b| b.work.mass == [k as f64 - 1.0]), "the workspace before {k}");
                 }
                 let done = &mut done.lock().expect("no panic before")[field];
                 let around =
@@ -227,7 +295,15 @@ mod tests {
                 assert!(!done[k][stage], "stage {stage} twice on band {k} of field {field}");
                 done[k][stage] = true;
             };
-            sweeps.iter().for_each(|stages| sweep(stages, &mut all, &work));
+            let mut pools = Vec::new();
+            for stages in sweeps {
+                sweep(stages, &mut all, (sweeps.len() == 1).then_some(&mut pools), &work);
+            }
+            if sweeps.len() == 1 {
+                assert!(all.iter().flatten().all(|band| band.work.mass.is_empty()), "workspaces are given back");
+                let lent = pools.iter().map(Vec::len).max().unwrap_or(0);
+                assert!(lent <= 10, "{lent} workspaces");
+            }
         });
         let done = done.into_inner().expect("no panic");
         assert!(done.iter().flatten().flatten().all(|&d| d), "{fields:?} bands, {threads} threads");

@@ -4,11 +4,13 @@
 //! no fused multiply-add is used, so the bits are the same (tested). Calling a function compiled for AVX2 or AVX-512 is
 //! `unsafe`; it is done after the processor has said that it has it. The only other `unsafe` of the crate is in [`crate::vector`].
 #![allow(unsafe_code)]
+#![expect(clippy::too_many_arguments, reason = "of borrows in a struct the compiler does not know that they are apart")]
 
 use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Particle, Points};
 use crate::constitutive::{AnyLaw, Law};
+use crate::lanes::Lane;
 use crate::shape::{AveragedHat, Hat, Shape1d};
 use crate::vector::Plain;
 #[cfg(target_arch = "x86_64")]
@@ -99,11 +101,11 @@ mod wide {
     ));
     by_vector_unit!(gather_velocity, [S: Shape1d], [const REMAP], (
         shape: S, map: &NodeMap, constants: PointConstants, update: VelocityUpdate, motion: &[[f64; 4]],
-        points: &mut Points, momentum: &mut [[f64; 2]],
+        points: &mut Points, displacement: &mut [[Lane; 2]], momentum: &mut [[f64; 2]],
     ) -> BandSums);
     by_vector_unit!(update_stress, [S: Shape1d, L: Law], [], (
         shape: S, law: L, map: &NodeMap, constants: PointConstants, update: StressUpdate,
-        velocity: &[[f64; 2]], points: &mut Points,
+        velocity: &[[f64; 2]], points: &mut Points, displacement: &mut [[Lane; 2]],
     ) -> BandSums);
 
     pub(super) fn scatter_shape<S: Shape1d>(
@@ -128,12 +130,13 @@ mod wide {
         update: VelocityUpdate,
         motion: &[[f64; 4]],
         points: &mut Points,
+        displacement: &mut [[Lane; 2]],
         momentum: &mut [[f64; 2]],
     ) -> BandSums {
         if update.remap {
-            gather_velocity::<S, true>(shape, map, constants, update, motion, points, momentum)
+            gather_velocity::<S, true>(shape, map, constants, update, motion, points, displacement, momentum)
         } else {
-            gather_velocity::<S, false>(shape, map, constants, update, motion, points, momentum)
+            gather_velocity::<S, false>(shape, map, constants, update, motion, points, displacement, momentum)
         }
     }
 
@@ -145,11 +148,18 @@ mod wide {
         update: StressUpdate,
         velocity: &[[f64; 2]],
         points: &mut Points,
+        displacement: &mut [[Lane; 2]],
     ) -> BandSums {
         match law {
-            AnyLaw::LinearElastic(law) => update_stress(shape, law, map, constants, update, velocity, points),
-            AnyLaw::DruckerPrager(law) => update_stress(shape, law, map, constants, update, velocity, points),
-            AnyLaw::NeoHookean(law) => update_stress(shape, law, map, constants, update, velocity, points),
+            AnyLaw::LinearElastic(law) => {
+                update_stress(shape, law, map, constants, update, velocity, points, displacement)
+            }
+            AnyLaw::DruckerPrager(law) => {
+                update_stress(shape, law, map, constants, update, velocity, points, displacement)
+            }
+            AnyLaw::NeoHookean(law) => {
+                update_stress(shape, law, map, constants, update, velocity, points, displacement)
+            }
         }
     }
 }
@@ -195,13 +205,14 @@ pub fn gather_velocity(
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
+    displacement: &mut [[Lane; 2]],
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::gather_shape(shape, map, constants, update, motion, points, momentum)
+        wide::gather_shape(shape, map, constants, update, motion, points, displacement, momentum)
     } else {
-        wide::gather_shape(Hat, map, constants, update, motion, points, momentum)
+        wide::gather_shape(Hat, map, constants, update, motion, points, displacement, momentum)
     }
 }
 
@@ -214,12 +225,13 @@ pub fn update_stress(
     update: StressUpdate,
     velocity: &[[f64; 2]],
     points: &mut Points,
+    displacement: &mut [[Lane; 2]],
 ) -> BandSums {
     if half_width > 0.0 {
         let shape = AveragedHat::new(half_width);
-        wide::stress_shape(shape, law, map, constants, update, velocity, points)
+        wide::stress_shape(shape, law, map, constants, update, velocity, points, displacement)
     } else {
-        wide::stress_shape(Hat, law, map, constants, update, velocity, points)
+        wide::stress_shape(Hat, law, map, constants, update, velocity, points, displacement)
     }
 }
 

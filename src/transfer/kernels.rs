@@ -1,6 +1,7 @@
 //! The loops over material points.
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
+#![expect(clippy::too_many_arguments, reason = "of borrows in a struct the compiler does not know that they are apart")]
 
 use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
 use crate::band::{BandSums, NodeSum};
@@ -10,8 +11,8 @@ use crate::lanes::{LANES, Lane, floor_to_int};
 use crate::shape::{STENCIL, Shape1d};
 use crate::vector::{Pack4, Pack8, Unit};
 
-/// Blocks by which the scatter, the first to touch them in a step, asks for them ahead.
-const AHEAD: usize = 8;
+/// Blocks by which the scatter, the first to touch them in a step, asks for them ahead; the later passes ask for the next.
+const AHEAD: usize = 4;
 
 const ZERO: Lane = [0.0; LANES];
 
@@ -168,10 +169,10 @@ pub fn scatter_field<S: Shape1d>(
     force: &mut [[f64; 2]],
 ) {
     let mut stencil = Stencils::EMPTY;
-    for (block, n) in points.blocks() {
+    for ((block, n), ids) in points.blocks().zip(points.ids()) {
         stencil.evaluate(shape, map, block);
         for l in 0..n {
-            let f = acceleration(&block.get(l)).map(|a| mass * a);
+            let f = acceleration(&block.get(l, ids[l])).map(|a| mass * a);
             for i in 0..STENCIL {
                 let nodes = &mut force[stencil.first[i][l]..][..STENCIL];
                 for (j, node) in nodes.iter_mut().enumerate() {
@@ -192,12 +193,19 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
+    displacement: &mut [[Lane; 2]],
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
     let (mut stencil, mut seen) = (Stencils::EMPTY, [ZERO; 4]);
-    for (block, n) in points.blocks_mut() {
+    let len = points.len();
+    let (blocks, _) = points.blocks_mut();
+    for (number, dx) in displacement.iter_mut().enumerate() {
+        if let Some(soon) = blocks.get(number + 1) {
+            U::prefetch(soon);
+        }
+        let (block, n) = (&mut blocks[number], LANES.min(len - number * LANES));
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
@@ -229,7 +237,7 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
                 let moved = update.dt * seen[d][l];
                 let size = moved.abs();
                 farthest[l] = if size > farthest[l] { size } else { farthest[l] };
-                block.dx[d][l] = moved;
+                dx[d][l] = moved;
                 if update.move_now {
                     block.x[d][l] += moved;
                 }
@@ -275,11 +283,19 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
     update: StressUpdate,
     velocity: &[[f64; 2]],
     points: &mut Points,
+    displacement: &mut [[Lane; 2]],
 ) -> BandSums {
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
     let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
-    for (block, n, mut fingers) in points.blocks_and_fingers_mut() {
+    let len = points.len();
+    let (blocks, all_fingers) = points.blocks_mut();
+    for (number, dx) in displacement.iter().enumerate() {
+        if let Some(soon) = blocks.get(number + 1) {
+            U::prefetch(soon);
+        }
+        let (block, n) = (&mut blocks[number], LANES.min(len - number * LANES));
+        let mut fingers = all_fingers.get_mut(number);
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
@@ -342,7 +358,7 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
         if update.move_after {
             for d in 0..2 {
                 for l in 0..LANES {
-                    block.x[d][l] += block.dx[d][l];
+                    block.x[d][l] += dx[d][l];
                 }
             }
         }

@@ -76,6 +76,7 @@ impl Bench {
             domain: [[-1.0, 1.0], [-1.0, 1.0]],
         };
         Sorter::default().sort(&rules, &mut bands, &mut grid, &mut Vec::new());
+        bands.iter_mut().for_each(Band::make_room);
         Self { half_width: shape.half_width(per_cell), body, bands, grid }
     }
 
@@ -92,8 +93,8 @@ impl Bench {
         let (mut mass_scale, mut force_scale) = (0.0, 0.0);
         for band in &mut self.bands {
             let map = NodeMap::new(&self.grid, band.first_node);
-            transfer::scatter(Scatter::All, self.half_width, &map, constants, &band.points[0], &mut band.nodes.sums);
-            for (k, sum) in band.nodes.sums.iter().enumerate() {
+            transfer::scatter(Scatter::All, self.half_width, &map, constants, &band.points[0], &mut band.work.sums);
+            for (k, sum) in band.work.sums.iter().enumerate() {
                 let x = positions[band.first_node + k];
                 let (m, [fx, fy]) = (sum.mass(), sum.force());
                 let terms = [m, m * x[0], m * x[1], fx, fy, fx * x[0], fx * x[1], fy * x[0], fy * x[1]];
@@ -131,10 +132,10 @@ impl Bench {
         let _ = fault;
         for band in &mut self.bands {
             let map = NodeMap::new(&self.grid, band.first_node);
-            let nodes = &mut band.nodes;
-            for (k, &v) in velocities[band.first_node..][..nodes.motion.len()].iter().enumerate() {
-                nodes.motion[k] = [v[0], v[1], 0.0, 0.0];
-                nodes.strain_velocity[k] = v;
+            let work = &mut band.work;
+            for (k, &v) in velocities[band.first_node..][..band.reach].iter().enumerate() {
+                work.motion[k] = [v[0], v[1], 0.0, 0.0];
+                work.strain_velocity[k] = v;
             }
             let points = &mut band.points[0];
             for i in 0..points.len() {
@@ -147,9 +148,10 @@ impl Bench {
                 &map,
                 constants,
                 velocity,
-                &nodes.motion,
+                &work.motion,
                 points,
-                &mut nodes.remapped,
+                &mut work.moved,
+                &mut work.remapped,
             );
             transfer::update_stress(
                 self.half_width,
@@ -157,8 +159,9 @@ impl Bench {
                 &map,
                 constants,
                 stress,
-                &nodes.strain_velocity,
+                &work.strain_velocity,
                 points,
+                &mut work.moved,
             );
             for p in points.iter() {
                 let v = field(p.x);

@@ -41,7 +41,7 @@ impl Coupling {
     fn approach(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], implicit: &mut [ImplicitBody]) {
         for p in &self.pending {
             for side in &self.sides[self.nodes[p.node as usize].sides.clone()] {
-                let here = fields[side.field].bands[side.band].nodes.open[side.index].mass > 0.0;
+                let here = fields[side.field].bands[side.band].open[side.index].mass > 0.0;
                 if let Some(body) = implicit.iter_mut().find(|b| here && b.field == side.field) {
                     body.touch(body.slot(side.band, side.index));
                 }
@@ -90,7 +90,7 @@ impl Coupling {
         pending.clear();
         let mass = |node: usize, side: usize| {
             let s = &sides[nodes[node].sides.start + side];
-            fields[s.field].bands[s.band].nodes.open[s.index].mass
+            fields[s.field].bands[s.band].open[s.index].mass
         };
         for interface in interfaces.iter_mut() {
             interface.find_touches(fields, shape, dt, nodes, mass, pending);
@@ -121,11 +121,11 @@ impl Coupling {
         self.holds.clear();
         let mut ends = [0; MAX_SIDES];
         for (k, (side, at)) in sides.iter_mut().zip(own).enumerate() {
-            let nodes = &fields[at.field].bands[at.band].nodes;
-            let open = &nodes.open[at.index];
+            let band = &fields[at.field].bands[at.band];
+            let open = &band.open[at.index];
             *side = Side { mass: open.mass, old: open.old, velocity: open.free, fixed: false, held: false };
             if open.mass > 0.0 {
-                self.holds.extend_from_slice(&nodes.holds[at.holds.clone()]);
+                self.holds.extend_from_slice(&band.holds[at.holds.clone()]);
             }
             side.held = open.mass > 0.0 && !at.holds.is_empty();
             ends[k] = self.holds.len();
@@ -171,7 +171,7 @@ impl Coupling {
             // What contact gives to a clamped body goes into the clamp.
             for (k, side) in sides.iter_mut().enumerate().filter(|(_, s)| s.fixed) {
                 let at = &own[k];
-                let free = fields[at.field].bands[at.band].nodes.open[at.index].free;
+                let free = fields[at.field].bands[at.band].open[at.index].free;
                 let mut v = free;
                 for touch in touches.iter() {
                     let p = touch.vector_impulse();
@@ -217,7 +217,7 @@ impl Coupling {
 
         for (k, (side, at)) in sides.iter().zip(own).enumerate().filter(|(_, (s, _))| s.mass > 0.0) {
             let (before, band) = with_before(&mut fields[at.field].bands, at.band);
-            band.nodes.holds[at.holds.clone()].copy_from_slice(&self.holds[range(k)]);
+            band.holds[at.holds.clone()].copy_from_slice(&self.holds[range(k)]);
             nodes::book(&self.holds[range(k)], side.mean(), &mut band.tallies);
             let (mut before, v) = (before, side.velocity);
             momentum::close(before.as_deref_mut(), band, at.node, at.index, v);
@@ -231,13 +231,13 @@ impl Coupling {
             let own = &self.sides[self.nodes[solved.node].sides.clone()];
             let mut sides: Sides = Default::default();
             for (k, (side, at)) in sides.iter_mut().zip(own).enumerate() {
-                let velocity = fields[at.field].bands[at.band].nodes.strain_velocity[at.node];
+                let velocity = fields[at.field].bands[at.band].work.strain_velocity[at.node];
                 *side = Side { mass: solved.masses[k], velocity, old: velocity, fixed: solved.clamped[k], held: false };
             }
             node::project(&mut sides[..own.len()], &self.touches[solved.touches.clone()]);
             for (side, at) in sides.iter_mut().zip(own).filter(|(s, _)| s.mass > 0.0) {
                 let (before, band) = with_before(&mut fields[at.field].bands, at.band);
-                nodes::project(&band.nodes.holds[at.holds.clone()], &mut side.velocity);
+                nodes::project(&band.holds[at.holds.clone()], &mut side.velocity);
                 momentum::set_strain_velocity(before, band, at.node, side.velocity);
             }
         }

@@ -153,7 +153,7 @@ impl Coupling {
                 for (g, node) in others.take(MAX_SIDES) {
                     let bands = &fields[g].bands;
                     let band = bands.partition_point(|b| b.first_node <= node) - 1;
-                    let held = &bands[band].nodes.holds;
+                    let held = &bands[band].holds;
                     let holds = held.partition_point(|h| (h.node as usize) < node)
                         ..held.partition_point(|h| h.node as usize <= node);
                     let node = node - bands[band].first_node;
@@ -167,17 +167,17 @@ impl Coupling {
             }
         }
         for band in fields.iter_mut().flat_map(|f| &mut f.bands) {
-            band.nodes.shared.clear();
+            band.shared.clear();
         }
         for side in &self.sides {
-            fields[side.field].bands[side.band].nodes.shared.push(side.node as u32);
+            fields[side.field].bands[side.band].shared.push(side.node as u32);
         }
         for band in fields.iter_mut().flat_map(|f| &mut f.bands) {
-            band.nodes.shared.sort_unstable();
-            band.nodes.open.resize(band.nodes.shared.len(), Default::default());
+            band.shared.sort_unstable();
+            band.open.resize(band.shared.len(), Default::default());
         }
         for side in &mut self.sides {
-            let shared = &fields[side.field].bands[side.band].nodes.shared;
+            let shared = &fields[side.field].bands[side.band].shared;
             side.index = shared.partition_point(|&n| (n as usize) < side.node);
         }
     }

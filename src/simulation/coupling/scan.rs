@@ -90,13 +90,13 @@ impl Marks {
         let (Some(&low), Some(&high)) = (self.starts.iter().min(), self.starts.iter().max()) else { return };
         for band in &field.bands {
             // A point has drifted by at most a column since the sort, within the reach of its band.
-            if band.first_node > high as usize || band.first_node + band.nodes.sums.len() <= low as usize {
+            if band.first_node > high as usize || band.first_node + band.reach <= low as usize {
                 continue;
             }
             for (body, points) in field.bodies.iter().zip(&band.points) {
                 let half_width = shape.half_width(body.points_per_direction);
-                for (block, n) in points.blocks() {
-                    for l in 0..n {
+                for ((block, n), ids) in points.blocks().zip(points.ids()) {
+                    for (l, &id) in ids[..n].iter().enumerate() {
                         let x = [block.x[0][l], block.x[1][l]];
                         let at =
                             [0, 1].map(|d| floor_to_int((x[d] - grid.corner[d]) * grid.inverse_spacing - half_width));
@@ -115,7 +115,7 @@ impl Marks {
                                     let per = grid.inverse_spacing;
                                     let gradient = [gx[a] * wy[b] * per, wx[a] * gy[b] * per];
                                     let volume_ratio = block.volume_ratio[l];
-                                    let seen = Seen { id: block.id[l], x, volume_ratio, weight, gradient };
+                                    let seen = Seen { id, x, volume_ratio, weight, gradient };
                                     visit(number as usize, &seen, &found);
                                 }
                             }

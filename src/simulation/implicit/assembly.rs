@@ -41,6 +41,7 @@ impl ImplicitBody {
         }
         self.assemble(field);
         self.unseen = self.nodal_kinetic() - self.point_kinetic(field);
+        self.forget();
         self.shared.clear();
         self.slots.clear();
         self.dt = 0.0;
@@ -97,7 +98,7 @@ impl ImplicitBody {
             let band = field.bands.partition_point(|b| b.first_node <= node) - 1;
             self.places.push((band, node - field.bands[band].first_node));
             self.mass.push(mass[node]);
-            self.clamped.push(field.bands[band].nodes.holds.iter().any(|h| h.node as usize == node));
+            self.clamped.push(field.bands[band].holds.iter().any(|h| h.node as usize == node));
         }
         self.touchable = TOUCHABLE * self.mass.iter().fold(0.0, |a: f64, m| a.max(*m));
         for point in &mut self.points {
@@ -148,6 +149,7 @@ impl ImplicitBody {
                 }
             }
         }
+        self.blocks.follow(&self.stiffness);
         for (node, &m) in self.mass.iter().enumerate() {
             for i in [2 * node, 2 * node + 1] {
                 self.velocity[i] = momentum[i] / m;

@@ -1,4 +1,4 @@
-//! Symmetric band matrices and their Cholesky factors.
+//! Symmetric band matrices and their Cholesky factors; what is not zero in them, to be multiplied with vectors.
 
 /// The lower half of a symmetric matrix, row by row: each row ends on the diagonal.
 #[derive(Debug, Clone, Default)]
@@ -44,22 +44,6 @@ impl Banded {
         self.rows[at] = diagonal;
     }
 
-    /// y = A x.
-    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
-        y.fill(0.0);
-        for (i, row) in self.rows.chunks_exact(self.reach + 1).enumerate() {
-            let first = i.saturating_sub(self.reach);
-            let left = &row[self.reach + first - i..self.reach];
-            let (before, rest) = y.split_at_mut(i);
-            let mut sum = row[self.reach] * x[i];
-            for ((a, x_j), y_j) in left.iter().zip(&x[first..i]).zip(&mut before[first..]) {
-                sum += a * x_j;
-                *y_j += a * x[i];
-            }
-            rest[0] += sum;
-        }
-    }
-
     /// Becomes its own Cholesky factor. False if it is not positive definite.
     pub fn factor(&mut self) -> bool {
         let width = self.reach + 1;
@@ -88,9 +72,14 @@ impl Banded {
 
     /// Solves A x = b in place; the matrix must hold its factor.
     pub fn solve(&self, x: &mut [f64]) {
+        self.solve_from(0, x);
+    }
+
+    /// The same for a right side that is zero before its entry `begin`.
+    pub fn solve_from(&self, begin: usize, x: &mut [f64]) {
         let width = self.reach + 1;
         let row = |i: usize| &self.rows[i * width..(i + 1) * width];
-        for i in 0..self.size {
+        for i in begin..self.size {
             let first = i.saturating_sub(self.reach);
             let own = row(i);
             let sum = dot(&own[self.reach + first - i..self.reach], &x[first..i]);
@@ -104,6 +93,61 @@ impl Banded {
             for (x_j, a) in before[first..].iter_mut().zip(&own[self.reach + first - i..self.reach]) {
                 *x_j -= a * rest[0];
             }
+        }
+    }
+}
+
+/// What is not zero in a symmetric band matrix, in blocks of two rows and columns: those of a node.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Blocks {
+    /// For each node its first block, its block on the diagonal and the block past its last.
+    rows: Vec<[usize; 3]>,
+    /// The other node and the block, column by column, in the order of the other nodes.
+    blocks: Vec<(u32, [[f64; 2]; 2])>,
+}
+
+impl Blocks {
+    /// Takes over a matrix with two rows for each node.
+    pub fn follow(&mut self, matrix: &Banded) {
+        self.rows.clear();
+        self.blocks.clear();
+        let (nodes, near) = (matrix.size / 2, matrix.reach.div_ceil(2));
+        let entry = |i: usize, j: usize| {
+            let (i, j) = (i.max(j), i.min(j));
+            if i - j <= matrix.reach { matrix.rows[matrix.at(i, j)] } else { 0.0 }
+        };
+        for node in 0..nodes {
+            let (first, mut own) = (self.blocks.len(), 0);
+            for other in node.saturating_sub(near)..(node + near + 1).min(nodes) {
+                let block = [0, 1].map(|e| [0, 1].map(|d| entry(2 * node + d, 2 * other + e)));
+                if other == node {
+                    own = self.blocks.len();
+                }
+                if other == node || block != [[0.0; 2]; 2] {
+                    self.blocks.push((other as u32, block));
+                }
+            }
+            self.rows.push([first, own, self.blocks.len()]);
+        }
+    }
+
+    /// y = A x. Each row is summed from the diagonal on through the columns before it and then through those after it.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        let add = |sum: &mut [f64; 2], blocks: &[(u32, [[f64; 2]; 2])]| {
+            for (other, [a, b]) in blocks {
+                let at: &[f64; 2] = x[2 * *other as usize..].first_chunk().expect("two entries for each node");
+                *sum = [sum[0] + a[0] * at[0], sum[1] + a[1] * at[0]];
+                *sum = [sum[0] + b[0] * at[1], sum[1] + b[1] * at[1]];
+            }
+        };
+        for ((&[first, own, end], x), y) in self.rows.iter().zip(x.chunks_exact(2)).zip(y.chunks_exact_mut(2)) {
+            let [[xx, yx], [xy, yy]] = self.blocks[own].1;
+            let mut sum = [xx * x[0], yy * x[1]];
+            add(&mut sum, &self.blocks[first..own]);
+            sum = [sum[0] + xy * x[1], sum[1] + yx * x[0]];
+            add(&mut sum, &self.blocks[own + 1..end]);
+            // Never minus zero.
+            (y[0], y[1]) = (0.0 + sum[0], 0.0 + sum[1]);
         }
     }
 }
@@ -129,7 +173,7 @@ mod tests {
     #[test]
     fn a_solution_gives_back_the_right_side() {
         let mut random = Lcg::new(5);
-        for (size, reach) in [(1, 0), (7, 2), (40, 9), (25, 24)] {
+        for (size, reach) in [(2, 1), (8, 2), (40, 9), (26, 25)] {
             let mut a = Banded::new(size, reach);
             for i in 0..size {
                 for j in i.saturating_sub(reach)..i {
@@ -141,8 +185,9 @@ mod tests {
                 a.isolate(4, 3.0);
             }
             let x: Vec<f64> = (0..size).map(|_| random.signed()).collect();
-            let mut b = vec![0.0; size];
-            a.multiply(&x, &mut b);
+            let (mut b, mut blocks) = (vec![0.0; size], Blocks::default());
+            blocks.follow(&a);
+            blocks.multiply(&x, &mut b);
             if size > 5 {
                 assert_eq!(b[4], 3.0 * x[4]);
             }

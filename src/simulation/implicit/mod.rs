@@ -34,7 +34,9 @@ mod banded;
 mod motion;
 
 use super::field::VelocityField;
-use banded::Banded;
+use crate::boundary::Boundary;
+use crate::momentum::BodyForces;
+use banded::{Banded, Blocks};
 
 /// Most sweeps over the touched nodes in a step, and the change of velocity, as a share of the largest, at which they
 /// end.
@@ -60,8 +62,6 @@ struct Shared {
     node: usize,
     band: usize,
     index: usize,
-    /// Velocities of all nodes per unit impulse along x and y; empty for a clamped node.
-    response: [Vec<f64>; 2],
     /// Contact impulse of the step, N s.
     impulse: [f64; 2],
     /// Velocity per impulse that contact is told, 1/kg.
@@ -76,6 +76,8 @@ struct Shared {
 pub(super) struct ImplicitBody {
     /// Its velocity field.
     pub field: usize,
+    /// That field, while all others are swept.
+    pub own: VelocityField,
     points: Vec<Point>,
     /// Band and place in it of each node.
     places: Vec<(usize, usize)>,
@@ -89,6 +91,8 @@ pub(super) struct ImplicitBody {
     internal: Vec<f64>,
     after: Vec<f64>,
     stiffness: Banded,
+    /// The same.
+    blocks: Blocks,
     factor: Banded,
     /// Step for which the factor holds, s.
     dt: f64,
@@ -109,6 +113,8 @@ pub(super) struct ImplicitBody {
     answers: Vec<[f64; 4]>,
     /// Kinetic energy that the nodes had more than the points, J.
     unseen: f64,
+    /// Velocities of all nodes per unit impulse along x and y at each node; empty until it is touched, and for a clamped one.
+    responses: Vec<[Vec<f64>; 2]>,
     shared: Vec<Shared>,
     /// First of the shared nodes of each band.
     slots: Vec<usize>,
@@ -118,6 +124,15 @@ pub(super) struct ImplicitBody {
     pub passes: usize,
 }
 
+/// What a body in implicit steps does while the others are swept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Turn {
+    /// Finds how it would move without contact.
+    Predict,
+    /// Moves.
+    Finish,
+}
+
 /// The bodies in implicit steps among those that have a velocity field of their own.
 pub(super) fn bodies(fields: &[VelocityField]) -> Vec<ImplicitBody> {
     let alone = fields.iter().enumerate().filter(|(_, f)| f.bodies.len() == 1 && f.bodies[0].implicit);
@@ -125,60 +140,68 @@ pub(super) fn bodies(fields: &[VelocityField]) -> Vec<ImplicitBody> {
 }
 
 impl ImplicitBody {
+    /// Does one or the other on its own field; `common` acts on all fields.
+    pub fn take_turn(&mut self, turn: Turn, boundaries: &[Boundary], common: BodyForces, dt: f64) {
+        let mut field = std::mem::take(&mut self.own);
+        let forces = field.forces(common);
+        match turn {
+            Turn::Predict => self.predict(&mut field, forces, dt),
+            Turn::Finish => self.finish(&mut field, boundaries, forces, dt),
+        }
+        self.own = field;
+    }
+
     /// Where a shared node is kept.
     pub fn slot(&self, band: usize, index: usize) -> usize {
         self.slots[band] + index
     }
 
-    /// Follows a new list of shared nodes; responses that are known are kept.
+    /// Follows a new list of shared nodes.
     pub fn follow(&mut self, field: &VelocityField) {
-        let old = std::mem::take(&mut self.shared);
-        let mut known = vec![None; self.mass.len()];
-        old.into_iter().for_each(|s| {
-            let node = s.node;
-            if let Some(place) = known.get_mut(node) {
-                *place = Some(s);
-            }
-        });
         let mut number = vec![usize::MAX; field.grid.len()];
         for (node, &(band, at)) in self.places.iter().enumerate() {
             number[field.bands[band].first_node + at] = node;
         }
+        self.shared.clear();
         self.slots.clear();
         for (b, band) in field.bands.iter().enumerate() {
             self.slots.push(self.shared.len());
-            for (index, &at) in band.nodes.shared.iter().enumerate() {
+            for (index, &at) in band.shared.iter().enumerate() {
                 let node = number[band.first_node + at as usize];
-                let response = match known.get_mut(node).and_then(Option::take) {
-                    Some(s) => s.response,
-                    None => Default::default(),
-                };
                 let (impulse, mobility, touched, rank) = ([0.0; 2], 0.0, false, 0);
-                self.shared.push(Shared { node, band: b, index, response, impulse, mobility, touched, rank });
+                self.shared.push(Shared { node, band: b, index, impulse, mobility, touched, rank });
             }
         }
         self.touched.clear();
         self.touched.reserve(self.shared.len());
         self.answers.clear();
         self.answers.reserve(self.shared.len() * self.shared.len());
-        self.respond();
     }
 
-    /// Finds the responses that are missing.
-    fn respond(&mut self) {
-        if self.dt <= 0.0 {
-            return;
-        }
-        let Self { shared, clamped, mass, factor, .. } = self;
-        let missing = |s: &&mut Shared| s.node < mass.len() && !clamped[s.node] && s.response[0].is_empty();
-        for s in shared.iter_mut().filter(missing) {
-            for d in 0..2 {
-                let mut column = vec![0.0; 2 * mass.len()];
-                column[2 * s.node + d] = 1.0;
-                factor.solve(&mut column);
-                s.response[d] = column;
+    /// Finds the responses of some shared nodes that are missing.
+    fn respond(&mut self, touched: &[usize]) {
+        let Self { shared, clamped, responses, factor, .. } = self;
+        for node in touched.iter().map(|&k| shared[k].node) {
+            if clamped.get(node).is_none_or(|c| *c) || !responses[node][0].is_empty() {
+                continue;
+            }
+            for (d, column) in responses[node].iter_mut().enumerate() {
+                column.resize(2 * clamped.len(), 0.0);
+                column[2 * node + d] = 1.0;
+                factor.solve_from(2 * node + d, column);
             }
         }
+    }
+
+    /// Velocities of all nodes per unit impulse along x (0) or y (1) at a node, or nothing.
+    fn response(&self, node: usize, d: usize) -> &[f64] {
+        self.responses.get(node).map_or(&[], |r| &r[d])
+    }
+
+    /// Forgets the responses.
+    fn forget(&mut self) {
+        self.responses.iter_mut().flatten().for_each(Vec::clear);
+        self.responses.resize(self.mass.len(), Default::default());
     }
 
     /// Makes ready for steps of `dt` (s).
@@ -198,8 +221,7 @@ impl ImplicitBody {
             }
         }
         assert!(self.factor.factor(), "mass plus stiffness is positive definite");
-        self.shared.iter_mut().for_each(|s| s.response = Default::default());
-        self.respond();
+        self.forget();
     }
 
     /// Notes that a shared node, where the body has mass, is touched in this step.
@@ -218,14 +240,17 @@ impl ImplicitBody {
         let mut touched = std::mem::take(&mut self.touched);
         touched.clear();
         touched.extend((0..self.shared.len()).filter(|&k| self.shared[k].touched));
+        self.respond(&touched);
         self.answers.clear();
         for (rank, &k) in touched.iter().enumerate() {
             let node = self.shared[k].node;
             let first = self.answers.len();
-            self.answers.extend(touched.iter().map(|&j| {
-                let at = |d: usize, e: usize| self.shared[j].response[d].get(2 * node + e).copied().unwrap_or(0.0);
-                [at(0, 0), at(1, 0), at(0, 1), at(1, 1)]
-            }));
+            for &j in &touched {
+                let of =
+                    |d: usize| self.response(self.shared[j].node, d).get(2 * node..2 * node + 2).unwrap_or(&[0.0; 2]);
+                let (x, y) = (of(0), of(1));
+                self.answers.push([x[0], y[0], x[1], y[1]]);
+            }
             // Frobenius's norm, no less than the largest eigenvalue: no sweep then overshoots.
             let own = self.answers[first + rank];
             self.shared[k].mobility = own.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -241,7 +266,7 @@ impl ImplicitBody {
     pub fn offer(&self, slot: usize, field: &mut VelocityField) {
         let &Shared { node, band, index, impulse, mobility, rank, .. } = &self.shared[slot];
         let v = self.velocity_at(rank);
-        let open = &mut field.bands[band].nodes.open[index];
+        let open = &mut field.bands[band].open[index];
         if self.clamped.get(node).is_none_or(|c| *c) || mobility <= 0.0 {
             open.free = v;
         } else {

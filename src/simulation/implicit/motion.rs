@@ -1,19 +1,21 @@
 //! A step of a body in implicit steps: before contact, and after.
 
 use super::{ImplicitBody, THETA};
+use crate::band::Band;
 use crate::body::Particle;
 use crate::boundary::Boundary;
 use crate::boundary::nodes::Tally;
-use crate::constitutive::{Increment, Law};
+use crate::constitutive::{AnyLaw, Increment, Law};
 use crate::momentum::{BodyForces, Distributed};
 use crate::simulation::field::VelocityField;
+use crate::simulation::sweep::together;
 
 impl ImplicitBody {
     /// Finds how the body would move without contact, and opens the nodes that other fields reach.
     pub fn predict(&mut self, field: &mut VelocityField, forces: BodyForces, dt: f64) {
         self.set_step(dt);
-        let Self { velocity, stiffness, internal, free, pulled, damped, mass, clamped, .. } = self;
-        stiffness.multiply(velocity, pulled);
+        let Self { velocity, blocks, internal, free, pulled, damped, mass, clamped, .. } = self;
+        blocks.multiply(velocity, pulled);
         let share = (dt * forces.damping).min(1.0);
         for (node, m) in mass.iter().enumerate() {
             for d in 0..2 {
@@ -29,7 +31,7 @@ impl ImplicitBody {
         self.factor.solve(&mut self.free);
         for s in &mut self.shared {
             s.touched = false;
-            let open = &mut field.bands[s.band].nodes.open[s.index];
+            let open = &mut field.bands[s.band].open[s.index];
             *open = Default::default();
             if self.mass.get(s.node).is_some_and(|&m| m >= self.touchable) {
                 open.mass = self.mass[s.node];
@@ -42,9 +44,9 @@ impl ImplicitBody {
     /// Ends the step under the impulses found: moves nodes and points, and fills in the sums of the field's bands.
     pub fn finish(&mut self, field: &mut VelocityField, boundaries: &[Boundary], forces: BodyForces, dt: f64) {
         let mut new = std::mem::take(&mut self.free);
-        for s in self.shared.iter().filter(|s| s.touched && !s.response[0].is_empty()) {
-            for (response, p) in s.response.iter().zip(s.impulse).filter(|(_, p)| *p != 0.0) {
-                new.iter_mut().zip(response).for_each(|(v, r)| *v += r * p);
+        for s in self.shared.iter().filter(|s| s.touched) {
+            for (d, p) in s.impulse.into_iter().enumerate().filter(|(_, p)| *p != 0.0) {
+                new.iter_mut().zip(self.response(s.node, d)).for_each(|(v, r)| *v += r * p);
             }
         }
         let between = |old: f64, new: f64| (1.0 - THETA) * old + THETA * new;
@@ -52,7 +54,7 @@ impl ImplicitBody {
             *d += dt * between(*old, *new);
         }
         let mut after = std::mem::take(&mut self.after);
-        self.stiffness.multiply(&self.displacement, &mut after);
+        self.blocks.multiply(&self.displacement, &mut after);
         after.iter_mut().zip(&self.force).for_each(|(a, f)| *a += f);
         let before = &self.internal;
         let mean = |i: usize| 0.5 * (self.velocity[i] + new[i]);
@@ -90,7 +92,7 @@ impl ImplicitBody {
                 gained - dt * (m * forces.gravity[d] - force(i)) - damped[d] - contact[i]
             });
             let number = band.first_node + at;
-            if let Some(hold) = band.nodes.holds.iter().find(|h| h.node as usize == number) {
+            if let Some(hold) = band.holds.iter().find(|h| h.node as usize == number) {
                 let moment = hold.arm[0] * impulse[1] - hold.arm[1] * impulse[0];
                 let tally = Tally { impulse, moment, ..Tally::default() };
                 band.tallies[hold.boundary as usize].add(&tally);
@@ -100,7 +102,14 @@ impl ImplicitBody {
         self.free = std::mem::replace(&mut self.velocity, new);
         self.after = std::mem::replace(&mut self.internal, after);
         field.drift = 2.0 * self.displacement.iter().fold(0.0f64, |a, d| a.max(d.abs()));
-        self.move_points(field);
+        let (law, half) = (field.bodies[0].law, self.points.len() / 2);
+        let (mut middle, mut first) = (0, 0);
+        while first < half {
+            first += field.bands[middle].len();
+            middle += 1;
+        }
+        let (before, after) = field.bands.split_at_mut(middle);
+        together(|| self.move_points(&law, before, 0), || self.move_points(&law, after, first));
         let points = self.point_kinetic(field);
         let every = field.bands.iter().flat_map(|b| b.points[0].iter());
         let fastest = every.fold(0.0f64, |a, p| a.max(p.v[0].abs()).max(p.v[1].abs()));
@@ -120,15 +129,14 @@ impl ImplicitBody {
     fn show(&self, field: &mut VelocityField) {
         for s in self.shared.iter().filter(|s| s.node < self.mass.len()) {
             let band = &mut field.bands[s.band];
-            let at = band.nodes.shared[s.index] as usize;
-            band.nodes.strain_velocity[at] = [self.velocity[2 * s.node], self.velocity[2 * s.node + 1]];
+            let at = band.shared[s.index] as usize;
+            band.work.strain_velocity[at] = [self.velocity[2 * s.node], self.velocity[2 * s.node + 1]];
         }
     }
 
-    fn move_points(&self, field: &mut VelocityField) {
-        let law = field.bodies[0].law;
-        let mut number = 0;
-        for band in &mut field.bands {
+    /// Moves the points of some bands, the first of which has this number.
+    fn move_points(&self, law: &AnyLaw, bands: &mut [Band], mut number: usize) {
+        for band in bands {
             let mut smallest = f64::INFINITY;
             for i in 0..band.points[0].len() {
                 let p = &self.points[number];

@@ -42,7 +42,7 @@ fn mass_velocity_force_and_stiffness_are_sums_over_points() {
         let mut random = Lcg::new(7);
         let u: Vec<f64> = (0..n).map(|_| random.signed()).collect();
         let mut force = vec![0.0; n];
-        body.stiffness.multiply(&u, &mut force);
+        body.blocks.multiply(&u, &mut force);
         assert!(apart(&force, &reference.stiffness_times(&u)) < ROUND, "{shape:?}");
         let clamp = &sim.boundaries()[0];
         let held: Vec<bool> = reference.x.iter().map(|x| clamp.depth(*x) > -0.5 * H).collect();
@@ -84,10 +84,11 @@ impl Alone {
         let sim = wall(ShapeFunction::Ugimp, AnyLaw::LinearElastic(elastic()));
         let (mut body, mut field) = (sim.implicit[0].clone(), sim.fields[0].clone());
         let reference = Reference::new(&sim, &body);
+        field.bands.iter_mut().for_each(crate::band::Band::make_room);
         if shared {
             for band in &mut field.bands {
-                band.nodes.shared = (0..band.owned() as u32).step_by(3).collect();
-                band.nodes.open = vec![Default::default(); band.nodes.shared.len()];
+                band.shared = (0..band.owned as u32).step_by(3).collect();
+                band.open = vec![Default::default(); band.shared.len()];
             }
         }
         body.follow(&field);
@@ -237,8 +238,8 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         if step == 1 {
             // Other fields have moved: other nodes are shared, some of them still.
             for band in &mut field.bands {
-                band.nodes.shared = (0..band.owned() as u32).step_by(2).collect();
-                band.nodes.open = vec![Default::default(); band.nodes.shared.len()];
+                band.shared = (0..band.owned as u32).step_by(2).collect();
+                band.open = vec![Default::default(); band.shared.len()];
             }
             body.follow(field);
         }
@@ -249,25 +250,12 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         assert!(next_to_none > 0, "contact leaves nothing out");
         for (k, s) in shared.iter().enumerate() {
             assert_eq!(body.slot(s.band, s.index), k);
-            let open = field.bands[s.band].nodes.open[s.index];
+            let open = field.bands[s.band].open[s.index];
             if s.node < n / 2 && body.mass[s.node] >= 1e-3 * fullest {
                 let two = |values: &[f64]| [values[2 * s.node], values[2 * s.node + 1]];
                 assert_eq!((open.mass, open.old, open.free), (body.mass[s.node], two(&old[0]), two(&body.free)));
             } else {
                 assert_eq!(open, Default::default());
-            }
-        }
-        // How all nodes answer a unit impulse: M r + (theta dt)^2 K r = e, and nothing where they are clamped.
-        for s in shared.iter().filter(|s| s.node < n / 2 && !body.clamped[s.node]) {
-            for (d, response) in s.response.iter().enumerate() {
-                let force = reference.stiffness_times(response);
-                for i in 0..n {
-                    let unit = if i == 2 * s.node + d { 1.0 } else { 0.0 };
-                    let push = body.mass[i / 2] * response[i] + (THETA * dt).powi(2) * force[i];
-                    let expected = if body.clamped[i / 2] { push } else { unit };
-                    assert!((push - expected).abs() < 1e-9, "{i} {push}");
-                    assert!(!body.clamped[i / 2] || response[i] == 0.0);
-                }
             }
         }
         // Others in every step, clamped ones among them.
@@ -278,25 +266,38 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         body.weigh();
         assert_eq!(body.touched, touched);
         assert!(body.shared.iter().all(|s| s.touched || s.impulse == [0.0; 2]));
+        // How all nodes answer a unit impulse: M r + (theta dt)^2 K r = e, and nothing where they are clamped.
+        for s in touched.iter().map(|&k| &shared[k]).filter(|s| !body.clamped[s.node]) {
+            for (d, response) in body.responses[s.node].iter().enumerate() {
+                let force = reference.stiffness_times(response);
+                for i in 0..n {
+                    let unit = if i == 2 * s.node + d { 1.0 } else { 0.0 };
+                    let push = body.mass[i / 2] * response[i] + (THETA * dt).powi(2) * force[i];
+                    let expected = if body.clamped[i / 2] { push } else { unit };
+                    assert!((push - expected).abs() < 1e-9, "{i} {push}");
+                    assert!(!body.clamped[i / 2] || response[i] == 0.0);
+                }
+            }
+        }
         for sweep in 0..3 {
             let (mut change, mut largest) = (0.0f64, 0.0f64);
             for &k in &touched {
                 // Velocity under the latest impulses at all nodes, and what the node is told.
                 let mut velocity = body.free.clone();
-                for s in body.shared.iter().filter(|s| !s.response[0].is_empty()) {
-                    for (response, p) in s.response.iter().zip(s.impulse) {
-                        velocity.iter_mut().zip(response).for_each(|(v, r)| *v += r * p);
+                for s in &body.shared {
+                    for (d, p) in s.impulse.into_iter().enumerate() {
+                        velocity.iter_mut().zip(body.response(s.node, d)).for_each(|(v, r)| *v += r * p);
                     }
                 }
                 body.offer(k, field);
                 let s = body.shared[k].clone();
-                let open = field.bands[s.band].nodes.open[s.index];
+                let open = field.bands[s.band].open[s.index];
                 let told = if body.clamped[s.node] {
                     assert_eq!(s.mobility, 0.0);
                     open.free
                 } else {
                     // Frobenius's norm of how the node answers impulses on itself.
-                    let own = s.response.iter().flat_map(|r| &r[2 * s.node..2 * s.node + 2]);
+                    let own = body.responses[s.node].iter().flat_map(|r| &r[2 * s.node..2 * s.node + 2]);
                     let mobility = own.map(|x| x * x).sum::<f64>().sqrt();
                     assert!((s.mobility / mobility - 1.0).abs() < 1e-12 && open.mass == 1.0 / s.mobility);
                     [0, 1].map(|d| open.free[d] + s.mobility * s.impulse[d])
@@ -318,8 +319,8 @@ fn impulses_of_contact_move_all_nodes_at_once() {
         alone.finish(old, &impulses, forces, dt);
         let Alone { body, field, .. } = &alone;
         for s in body.shared.iter().filter(|s| s.node < n / 2) {
-            let nodes = &field.bands[s.band].nodes;
-            let shown = nodes.strain_velocity[nodes.shared[s.index] as usize];
+            let band = &field.bands[s.band];
+            let shown = band.work.strain_velocity[band.shared[s.index] as usize];
             assert_eq!(shown, [body.velocity[2 * s.node], body.velocity[2 * s.node + 1]]);
         }
     }

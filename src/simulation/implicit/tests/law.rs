@@ -41,8 +41,8 @@ fn relative(sim: &Simulation, at: &ContactPoint) -> [[f64; 2]; 2] {
     let number = body.places.iter().position(|place| *place == own).expect("a node with mass");
     let largest = body.mass.iter().fold(0.0f64, |a, m| a.max(*m));
     let v = [body.velocity[2 * number], body.velocity[2 * number + 1]];
-    assert_eq!(wall.bands[own.0].nodes.strain_velocity[own.1], v, "strains see how the wall moves");
-    let nodes = &block.bands[band].nodes;
+    assert_eq!(wall.bands[own.0].work.strain_velocity[own.1], v, "strains see how the wall moves");
+    let nodes = &block.bands[band].work;
     let [motion, strain] = [[nodes.motion[node][0], nodes.motion[node][1]], nodes.strain_velocity[node]];
     assert!(body.mass[number] >= 1e-3 * largest, "contact where the wall has next to no mass");
     [motion, strain].map(|u| [u[0] - v[0], u[1] - v[1]])
