@@ -162,7 +162,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
 
 const DIFFERENCES: Curves = Curves {
     x: "log10_stiffness_1",
-    x_title: "power of ten of the normalised stiffness",
+    x_title: "power of ten of n",
     y_title: "implicit less explicit, %",
     curves: &[
         Curve { column: "equal", label: "in equal steps of 15 \u{b5}s", exact: false },
