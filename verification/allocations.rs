@@ -52,7 +52,8 @@ fn a_step_allocates_nothing() {
     let mut case = checkdam::case::parse(&format!("{others}{bed}"), "bed").expect("a valid case").case;
     case.grid.spacing_m = 0.02;
     assert_eq!(allocations_of(&case), 0);
-    // In implicit steps the bed is factorised anew where a body has been sorted or the step has another length, and only there.
+    // In implicit steps memory is asked for where the bed is factorised anew, and where contact touches a node for the first time;
+    // hardly ever else.
     case.bodies[1].integration = checkdam::case::Integration::Implicit;
     let (steps, _) = allocating(&case);
     assert!(steps < 20, "{steps} of 400 steps");

@@ -71,7 +71,12 @@ const COMPARED: [(&str, Way, Way, Option<f64>); 4] = [
 
 /// What is compared for the stiffest, with the shorter steps, on the grids and packings of the runs in those.
 const SHORTER_COMPARED: [(&str, Way, Way, Option<f64>); 4] = [
-    ("implicit less explicit in short steps, pairs of the shorter", ["implicit", SHORT], ["explicit", SHORT], None),
+    (
+        "implicit less explicit in short steps where there are shorter ones",
+        ["implicit", SHORT],
+        ["explicit", SHORT],
+        None,
+    ),
     ("implicit less explicit in shorter steps", ["implicit", SHORTER], ["explicit", SHORTER], Some(EQUAL)),
     ("shorter less short implicit steps", ["implicit", SHORTER], ["implicit", SHORT], None),
     ("shorter less short explicit steps", ["explicit", SHORTER], ["explicit", SHORT], None),

@@ -4,6 +4,7 @@
 //! rho_c is the density at which it would buckle (Greenhill 1881). What happens within milliseconds does not see that, so that
 //! what is found lies between no change and that of a barrier so much softer under a slow load.
 
+use super::balances::Balances;
 use super::records::{LITERAL, WEIGHT, barrier, height, young_of_one};
 use crate::check::{Check, Expected, Kind};
 use crate::plot::PlotError;
@@ -26,6 +27,8 @@ pub const VALIDATION: Validation = Validation {
     covers: &[],
 };
 
+/// Share of the stiffness that a weight leaves from which on down its effect on the deflection must be seen.
+const FELT: f64 = 0.7;
 const DEFLECTION: &str = "largest deflection";
 /// What is compared, with name and unit of its columns and in words.
 const QUANTITIES: [(&str, &str, &str, &str); 2] =
@@ -87,10 +90,25 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
                 ))
                 .from(Kind::Analytic, "Greenhill 1881"),
             );
+            if what == DEFLECTION && softer < FELT {
+                outcome.checks.push(
+                    Check::new(
+                        format!("n = {cell}: {what} with weight over that without, so that it is felt"),
+                        ratio.mean,
+                        Expected::AtLeast(1.0 + chance),
+                        "1",
+                    )
+                    .because(format!("the weight takes a third of the stiffness; two standard errors of {pairs} pairs"))
+                    .from(Kind::Analytic, "Greenhill 1881"),
+                );
+            }
         }
         let cells = numbers.into_iter().map(number).collect::<Vec<_>>().join(",");
         text += &format!("{cells},{pairs}\n");
     }
+    let cell = WEIGHT.first_case()?.grid.spacing_m;
+    let balances = Balances::over(runs.iter().map(|(_, r)| r), |_| cell);
+    outcome.checks.extend(balances.checks("", "ledgers and gauges of all runs"));
     outcome.tables.push(("barrier_weight_ratios".into(), text));
     Ok(outcome)
 }
