@@ -4,7 +4,7 @@
 //! Runs come in pairs, on the same grid and with the same packing, so that the error of a difference is that of the
 //! pairs. Explicit steps of a stiff barrier are short for the sand as well; the length of a step by itself changes what
 //! the sand does at the contact. Both are taken apart: explicit and implicit in equal steps, and either in long and in
-//! short ones.
+//! short ones. The stiffest of the barriers also runs in steps a third as long as the short ones: do the two get closer?
 
 use super::balances::Balances;
 use super::records::{INTEGRATION, SHORT_STEPS};

@@ -98,7 +98,9 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
                         Expected::AtLeast(1.0 + chance),
                         "1",
                     )
-                    .because(format!("the weight takes a third of the stiffness; two standard errors of {pairs} pairs"))
+                    .because(format!(
+                        "the weight takes three tenths of the stiffness or more; two standard errors of {pairs} pairs"
+                    ))
                     .from(Kind::Analytic, "Greenhill 1881"),
                 );
             }
