@@ -8,7 +8,7 @@
 use super::{Boundary, Friction};
 use crate::grid::ActiveGrid;
 
-/// Iterations for a node held by more than one boundary; perpendicular faces need two.
+/// Most iterations for a node held by more than one boundary; perpendicular faces need two.
 const SWEEPS: usize = 24;
 
 /// What a boundary does to one node.
@@ -196,12 +196,19 @@ pub fn reset(holds: &mut [Hold]) {
 /// without friction, or with it.
 pub fn visit(holds: &mut [Hold], boundaries: &[Boundary], m: f64, v: &mut [f64; 2], with_friction: bool) {
     for _ in 0..if holds.len() > 1 { SWEEPS } else { 1 } {
+        let mut changed = false;
         for hold in holds.iter_mut() {
+            let before = [*v, hold.impulse].map(|p| p.map(f64::to_bits));
             match hold.is_active(boundaries) {
                 true if with_friction => hold.relax(m, v),
                 true => hold.relax_normal(m, v),
                 false => hold.state = HoldState::Apart,
             }
+            changed |= before != [*v, hold.impulse].map(|p| p.map(f64::to_bits));
+        }
+        // Further sweeps would not change a bit.
+        if !changed {
+            break;
         }
     }
 }
