@@ -6,6 +6,7 @@
 
 mod drucker_prager;
 mod elastic;
+mod logarithm;
 mod neo_hookean;
 
 pub use drucker_prager::{Cone, DruckerPrager};

@@ -4,6 +4,7 @@
 //! strains lose no digits. A step multiplies it by f = I + dt grad(v), the gradient of where the grid carries the points, which
 //! is exact: the stress depends on the deformation alone and not on the steps taken towards it.
 
+use super::logarithm::log1p;
 use super::{Increment, Law, PointState, Stress};
 
 /// Left Cauchy-Green tensor less the identity, in the plane; nothing happens across it.
@@ -73,7 +74,7 @@ impl NeoHookean {
     pub fn stress(&self, b: &Finger) -> Stress {
         let less_one = b.determinant_less_one();
         let per_volume = 1.0 / (1.0 + less_one).sqrt();
-        let p = 0.5 * self.lame * libm::log1p(less_one);
+        let p = 0.5 * self.lame * log1p(less_one);
         Stress {
             xx: (self.shear * b.xx + p) * per_volume,
             yy: (self.shear * b.yy + p) * per_volume,
@@ -86,7 +87,7 @@ impl NeoHookean {
     #[inline(always)]
     pub fn energy(&self, b: &Finger) -> f64 {
         let less_one = b.determinant_less_one();
-        let ln = 0.5 * libm::log1p(less_one);
+        let ln = 0.5 * log1p(less_one);
         0.5 * self.shear * ((b.xx + b.yy) - 2.0 * ln) + 0.5 * self.lame * ln * ln
     }
 }

@@ -295,7 +295,6 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
             U::prefetch(soon);
         }
         let (block, n) = (&mut blocks[number], LANES.min(len - number * LANES));
-        let mut fingers = all_fingers.get_mut(number);
         stencil.evaluate(shape, map, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
@@ -313,6 +312,9 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
         }
         // dv_x/dx, dv_y/dx, dv_x/dy, dv_y/dy
         columns::<U>(rows, &mut gradient);
+        // Loaded and stored whole, so that nothing keeps the loop over the lanes from becoming vectors.
+        let mut fingers = all_fingers.get_mut(number).filter(|_| L::CARRIES_DEFORMATION);
+        let mut finger = fingers.as_ref().map_or([ZERO; 3], |f| **f);
         for l in 0..LANES {
             let increment = Increment {
                 xx: update.dt * gradient[0][l],
@@ -329,13 +331,8 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
                 },
                 opened: block.opened[l],
                 plastic_shear: block.plastic_shear[l],
-                finger: Finger::default(),
+                finger: Finger { xx: finger[0][l], yy: finger[1][l], xy: finger[2][l] },
             };
-            if L::CARRIES_DEFORMATION
-                && let Some(f) = &fingers
-            {
-                state.finger = Finger { xx: f[0][l], yy: f[1][l], xy: f[2][l] };
-            }
             let density = law.update(&mut state, &increment);
             let before = block.volume_ratio[l];
             let after = law.volume_ratio(&state, before, &increment);
@@ -349,11 +346,10 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
             block.stress[3][l] = state.stress.xy;
             block.opened[l] = state.opened;
             block.plastic_shear[l] = state.plastic_shear;
-            if L::CARRIES_DEFORMATION
-                && let Some(f) = &mut fingers
-            {
-                (f[0][l], f[1][l], f[2][l]) = (state.finger.xx, state.finger.yy, state.finger.xy);
-            }
+            (finger[0][l], finger[1][l], finger[2][l]) = (state.finger.xx, state.finger.yy, state.finger.xy);
+        }
+        if let Some(f) = &mut fingers {
+            **f = finger;
         }
         if update.move_after {
             for d in 0..2 {
