@@ -24,7 +24,6 @@ mod field;
 mod implicit;
 mod scene;
 mod stages;
-mod stretch;
 mod sweep;
 
 pub use coupling::ContactPoint;

@@ -4,6 +4,7 @@
 //! Nodes are worked one after the other in the order of the first field, so results do not depend on the number of threads.
 
 mod exchange;
+mod faces;
 mod scan;
 mod surface;
 

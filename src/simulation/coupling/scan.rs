@@ -17,15 +17,20 @@ pub(super) struct Marks {
     starts: Vec<u32>,
 }
 
+/// A point that marked nodes see.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Near {
+    /// Position, m.
+    pub x: Vector,
+    /// Where its stencil starts in the grid, and its place from there in cells.
+    start: [i32; 2],
+    rest: [f64; 2],
+    half_width: f64,
+}
+
 /// What a node sees of a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
-    /// Number of the point within its body.
-    pub id: u32,
-    /// Position, m.
-    pub x: Vector,
-    /// Current over reference volume.
-    pub volume_ratio: f64,
     /// Weight of the node.
     pub weight: f64,
     /// Gradient of the weight at the point, 1/m.
@@ -73,19 +78,9 @@ impl Marks {
         }
     }
 
-    /// Calls `visit` with the number of each marked node and what it sees of each point, in the order of the points.
-    pub fn visit(&self, field: &VelocityField, shape: ShapeFunction, mut visit: impl FnMut(usize, &Seen)) {
-        self.visit_with(field, shape, |_| (), |number, seen, ()| visit(number, seen));
-    }
-
-    /// The same with something that is found once for each point at its position.
-    pub fn visit_with<T>(
-        &self,
-        field: &VelocityField,
-        shape: ShapeFunction,
-        mut once: impl FnMut(Vector) -> T,
-        mut visit: impl FnMut(usize, &Seen, &T),
-    ) {
+    /// Calls `visit` with each point that marked nodes see, in their order: its place, its number within its body, and its current
+    /// over reference volume.
+    pub fn points(&self, field: &VelocityField, shape: ShapeFunction, mut visit: impl FnMut(&Near, u32, f64)) {
         let grid = &field.grid;
         let (Some(&low), Some(&high)) = (self.starts.iter().min(), self.starts.iter().max()) else { return };
         for band in &field.bands {
@@ -100,27 +95,28 @@ impl Marks {
                         let x = [block.x[0][l], block.x[1][l]];
                         let at =
                             [0, 1].map(|d| floor_to_int((x[d] - grid.corner[d]) * grid.inverse_spacing - half_width));
-                        let (i, j) = (at[0].0, at[1].0);
-                        if !self.near[(grid.row_zero[i as usize] + j) as usize] {
-                            continue;
-                        }
-                        let [(wx, gx), (wy, gy)] = at.map(|(_, r)| weights(half_width, r));
-                        let found = once(x);
-                        for a in 0..STENCIL {
-                            let first = grid.row_zero[i as usize + a] + j;
-                            for b in 0..STENCIL {
-                                let number = self.numbers[first as usize + b];
-                                let weight = wx[a] * wy[b];
-                                if number >= 0 && weight > 0.0 {
-                                    let per = grid.inverse_spacing;
-                                    let gradient = [gx[a] * wy[b] * per, wx[a] * gy[b] * per];
-                                    let volume_ratio = block.volume_ratio[l];
-                                    let seen = Seen { id, x, volume_ratio, weight, gradient };
-                                    visit(number as usize, &seen, &found);
-                                }
-                            }
+                        let (start, rest) = (at.map(|(i, _)| i), at.map(|(_, r)| r));
+                        if self.near[(grid.row_zero[start[0] as usize] + start[1]) as usize] {
+                            visit(&Near { x, start, rest, half_width }, id, block.volume_ratio[l]);
                         }
                     }
+                }
+            }
+        }
+    }
+
+    /// Calls `visit` with the number of each marked node that sees a point, and what it sees.
+    pub fn nodes(&self, grid: &ActiveGrid, point: &Near, mut visit: impl FnMut(usize, &Seen)) {
+        let [(wx, gx), (wy, gy)] = point.rest.map(|r| weights(point.half_width, r));
+        for a in 0..STENCIL {
+            let first = grid.row_zero[point.start[0] as usize + a] + point.start[1];
+            for b in 0..STENCIL {
+                let number = self.numbers[first as usize + b];
+                let weight = wx[a] * wy[b];
+                if number >= 0 && weight > 0.0 {
+                    let per = grid.inverse_spacing;
+                    let gradient = [gx[a] * wy[b] * per, wx[a] * gy[b] * per];
+                    visit(number as usize, &Seen { weight, gradient });
                 }
             }
         }

@@ -1,9 +1,10 @@
 //! The surface between two bodies: where it is in reach of the grid, which way it faces, whether they touch.
 
-use super::scan::Marks;
+use super::faces::Batch;
+use super::scan::{Marks, Near};
 use super::{Pending, SharedNode, SharedSide, VelocityField};
 use crate::contact::normal::{GradientRule, Sample, from_gradients, from_positions};
-use crate::contact::outline::{Outline, Surface};
+use crate::contact::outline::{Nearest, Outline, Surface};
 use crate::contact::rule::{ContactRule, ContactTally, GapRule, NormalRule};
 use crate::contact::{Vector, direction, regression, separation};
 use crate::shape::ShapeFunction;
@@ -47,6 +48,8 @@ pub(super) struct Interface {
     surfaces: Vec<Surface>,
     /// The same for each point along the rings.
     places: Vec<(usize, usize)>,
+    /// Points whose nearest face is looked for.
+    batch: Batch,
     /// Positions at the start by number, m, where displacements count.
     starts: [Vec<Vector>; 2],
 }
@@ -87,6 +90,7 @@ impl Interface {
             outline,
             surfaces,
             places: Vec::new(),
+            batch: Batch::default(),
             starts,
         }
     }
@@ -129,6 +133,7 @@ impl Interface {
         }
         if let NormalRule::NearestFace(k) = self.rule.normal {
             self.find_outline(&fields[self.fields[k]]);
+            self.batch.reserve();
         }
     }
 
@@ -220,15 +225,18 @@ impl Interface {
             let field = &fields[self.fields[side]];
             let body = &field.bodies[0];
             let (views, starts) = (&mut self.views, &self.starts[side]);
-            self.marks[side].visit(field, shape, |k, seen| {
-                let view = &mut views[k];
-                let from = starts.get(seen.id as usize).copied().unwrap_or(nodes[view.node].x);
-                let x = [seen.x[0] - from[0], seen.x[1] - from[1]];
-                let volume = body.point_volume * seen.volume_ratio;
-                view.samples[side].add(body.point_mass, volume, x, seen.weight, seen.gradient);
-                if clouds {
-                    view.clouds[side].push(seen.x);
-                }
+            let marks = &self.marks[side];
+            marks.points(field, shape, |point, id, volume_ratio| {
+                let volume = body.point_volume * volume_ratio;
+                marks.nodes(&field.grid, point, |k, seen| {
+                    let view = &mut views[k];
+                    let from = starts.get(id as usize).copied().unwrap_or(nodes[view.node].x);
+                    let x = [point.x[0] - from[0], point.x[1] - from[1]];
+                    view.samples[side].add(body.point_mass, volume, x, seen.weight, seen.gradient);
+                    if clouds {
+                        view.clouds[side].push(point.x);
+                    }
+                });
             });
         }
     }
@@ -245,20 +253,24 @@ impl Interface {
         let other = 1 - structure;
         let field = &fields[self.fields[other]];
         let radius = 0.5 * field.bodies[0].point_spacing;
-        let (views, surfaces) = (&mut self.views, &self.surfaces);
-        let nearest = |x: Vector| {
-            let all = surfaces.iter().filter_map(|s| s.nearest(x));
-            all.min_by(|p, q| p.distance.total_cmp(&q.distance))
+        let Self { views, surfaces, marks, batch, .. } = self;
+        let marks = &marks[other];
+        let mut face_of = |point: &Near, face: &Nearest| {
+            marks.nodes(&field.grid, point, |k, seen| {
+                let view = &mut views[k];
+                for (sum, n) in view.faces.iter_mut().zip(face.normal) {
+                    *sum += seen.weight * n;
+                }
+                view.extents[other] = view.extents[other].max(radius - face.distance);
+                view.extents[structure] = 0.0;
+            });
         };
-        self.marks[other].visit_with(field, shape, nearest, |k, seen, face| {
-            let Some(face) = face else { return };
-            let view = &mut views[k];
-            for (sum, n) in view.faces.iter_mut().zip(face.normal) {
-                *sum += seen.weight * n;
+        marks.points(field, shape, |point, _, _| {
+            if batch.push(*point) {
+                batch.answer(surfaces, &mut face_of);
             }
-            view.extents[other] = view.extents[other].max(radius - face.distance);
-            view.extents[structure] = 0.0;
         });
+        batch.answer(surfaces, &mut face_of);
     }
 
     fn find_normals(&mut self, nodes: &[SharedNode], h: f64) {
@@ -288,13 +300,16 @@ impl Interface {
             let radius = 0.5 * field.bodies[0].point_spacing;
             let sign = if side == 0 { 1.0 } else { -1.0 };
             let views = &mut self.views;
-            self.marks[side].visit(field, shape, |k, seen| {
-                let view = &mut views[k];
-                if let Some(n) = view.normal {
-                    let x = nodes[view.node].x;
-                    let reach = sign * ((seen.x[0] - x[0]) * n[0] + (seen.x[1] - x[1]) * n[1]) + radius;
-                    view.extents[side] = view.extents[side].max(reach);
-                }
+            let marks = &self.marks[side];
+            marks.points(field, shape, |point, _, _| {
+                marks.nodes(&field.grid, point, |k, _| {
+                    let view = &mut views[k];
+                    if let Some(n) = view.normal {
+                        let x = nodes[view.node].x;
+                        let reach = sign * ((point.x[0] - x[0]) * n[0] + (point.x[1] - x[1]) * n[1]) + radius;
+                        view.extents[side] = view.extents[side].max(reach);
+                    }
+                });
             });
         }
     }

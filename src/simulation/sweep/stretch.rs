@@ -36,10 +36,16 @@ impl<'a> Stretch<'a> {
         panic!("a band beyond the last");
     }
 
+    /// All of them, each with the number of its field.
+    pub fn into_bands(self) -> impl Iterator<Item = (usize, &'a mut Band)> {
+        let whole = self.whole.iter_mut().map(Vec::as_mut_slice);
+        let pieces = once(self.end).chain(whole).chain(once(self.beginning));
+        pieces.enumerate().flat_map(move |(k, bands)| bands.iter_mut().map(move |band| (self.first + k - 1, band)))
+    }
+
     /// The first bands, and the others.
-    pub fn split_at(&mut self, mut band: usize) -> (Stretch<'_>, Stretch<'_>) {
+    pub fn split_at(self, mut band: usize) -> (Stretch<'a>, Stretch<'a>) {
         let Stretch { end, whole, beginning, first } = self;
-        let first = *first;
         if band <= end.len() {
             let (left, right) = end.split_at_mut(band);
             let left = Stretch { end: left, whole: &mut [], beginning: &mut [], first };
