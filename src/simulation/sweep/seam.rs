@@ -27,7 +27,8 @@ pub(super) struct Seam<'f> {
     begun: AtomicUsize,
 }
 
-/// A band that several threads work on, one at a time.
+/// A band that several threads work on, one at a time; a cache line, so that looking at one does not hold up work on another.
+#[repr(align(64))]
 pub(super) struct Place<'f> {
     field: usize,
     band: Mutex<&'f mut Band>,
