@@ -1,7 +1,14 @@
 //! The logarithm of the volume ratio, without branches.
 
-/// Hexadecimal values of the reals are those of the original.
+// The series and the reduction are those of FreeBSD's s_log1p.c:
+//
+// Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
+// Developed at SunPro, a Sun Microsystems, Inc. business. Permission to use, copy, modify, and distribute this software is freely
+// granted, provided that this notice is preserved.
+
+/// ln 2: its leading bits, and the rest.
 const LN2: [f64; 2] = [f64::from_bits(0x3fe6_2e42_fee0_0000), f64::from_bits(0x3dea_39ef_3579_3c76)];
+/// Coefficients of the even powers of f / (2 + f).
 const SERIES: [f64; 7] = [
     f64::from_bits(0x3fe5_5555_5555_5593),
     f64::from_bits(0x3fd9_9999_9997_fa04),
@@ -18,8 +25,8 @@ const NEAR: [f64; 2] = [f64::from_bits(0x3fd2_bec5 << 32), f64::from_bits(0x3fda
 /// 2^52, to whose bits a small whole number can be added as such.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 
-/// ln(1 + x), the bits of [`libm::log1p`] for any x. That is FreeBSD's s_log1p.c, which decides case by case; here all cases are
-/// computed and one is selected, so that a loop over points becomes vector instructions.
+/// ln(1 + x), the bits of [`libm::log1p`] for any x (but which of the bits of what is not a number). That decides case by case;
+/// here all cases are computed and one is selected, so that a loop over points becomes vector instructions.
 #[inline(always)]
 pub fn log1p(x: f64) -> f64 {
     // 1 + x = 2^k (1 + f), and what rounding took from 1 + x.

@@ -55,7 +55,8 @@ pub struct Numerics {
     pub pic: PicShare,
 }
 
-/// A field of accelerations (m/s2), given a point and the time (s).
+/// A field of accelerations (m/s2), given a point and the time (s). It is asked while bands are held by their threads, so it must not
+/// start parallel work of its own on the same thread pool.
 #[derive(Clone)]
 pub struct AccelerationField(pub Arc<Acceleration>);
 

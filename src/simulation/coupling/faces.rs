@@ -9,7 +9,7 @@ const BATCH: usize = 512;
 /// Points that are worth the other thread's while.
 const WORTH: usize = 32;
 
-/// Points and the faces found for them, by several threads at once. What follows from them is summed in the order of the points,
+/// Points and the faces found for them, by two threads. What follows from them is summed in the order of the points,
 /// whichever thread found them.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Batch {
@@ -33,9 +33,13 @@ impl Batch {
     /// Calls `visit` with every point and the face nearest to it, in order, and forgets them.
     pub fn answer(&mut self, surfaces: &[Surface], mut visit: impl FnMut(&Near, &Nearest)) {
         let faces = &mut self.faces[..self.points.len()];
-        let half = if self.points.len() < WORTH { 0 } else { faces.len() / 2 };
-        let ((first, second), (first_faces, second_faces)) = (self.points.split_at(half), faces.split_at_mut(half));
-        together(|| search(surfaces, first, first_faces), || search(surfaces, second, second_faces));
+        if faces.len() < WORTH {
+            search(surfaces, &self.points, faces);
+        } else {
+            let half = faces.len() / 2;
+            let ((first, second), (first_faces, second_faces)) = (self.points.split_at(half), faces.split_at_mut(half));
+            together(|| search(surfaces, first, first_faces), || search(surfaces, second, second_faces));
+        }
         for (point, face) in self.points.iter().zip(&*faces) {
             if let Some(face) = face {
                 visit(point, face);

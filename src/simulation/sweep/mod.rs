@@ -149,7 +149,8 @@ impl<S: Sync, W: Work<S>> Plan<'_, S, W> {
             || self.divide(after, pools_after, &seams[middle + 1..], end, [Some(&around), ends[1]]),
         );
         around.finish(self);
-        for band in start..end {
+        // Backwards, so that each gets its own back in the next step.
+        for band in (start..end).rev() {
             let pool = if band < seam { pools_before.last_mut() } else { pools_after.first_mut() };
             pool.into_iter().for_each(|pool| pool.push(take(&mut around.band(band).work)));
         }

@@ -1,7 +1,8 @@
 //! Bands around the seam between two parts of a sweep, which threads of both work on.
 //!
 //! A part sweeps those on its side as far as they do not depend on the other part. The thread that is done first takes what can
-//! be done next, whosever it would have been, and so does the other: neither waits as long as there is a stage to do.
+//! be done next, whosever it would have been, and so does the other. The order of the stages on a band, and what each needs, is kept;
+//! nothing else matters to the numbers.
 
 use super::stretch::Stretch;
 use super::together::LOOKS;
@@ -76,7 +77,9 @@ impl<'f> Place<'f> {
         stage: usize,
         before: Option<(usize, &mut Band)>,
     ) -> bool {
-        let next = self.done() == stage;
+        let done = self.done();
+        debug_assert!(done >= stage, "stage {stage} after {done} stages");
+        let next = done == stage;
         if next {
             plan.run(stage, before, held.band());
             self.done.store(stage + 1, Ordering::Release);
@@ -168,12 +171,12 @@ impl<'f> Seam<'f> {
     /// Does all that is left.
     pub fn finish<S: Sync, W: Work<S>>(&self, plan: &Plan<S, W>) {
         while let Found::Work = self.step(plan, true) {}
-        debug_assert!(matches!(self.step(plan, true), Found::End), "the parts beside it are done");
+        assert!(matches!(self.step(plan, true), Found::End), "the parts beside a seam are done");
     }
 }
 
-/// Does what is left around the seams at the ends of a part, until all is done or a part beside them has yet to begin: that one may
-/// be waiting for this thread.
+/// Does what is left around the seams at the ends of a part, until all is done, a part beside them has yet to begin (it
+/// may be waiting for this thread), or there has been nothing to do for too long.
 pub(super) fn help<S: Sync, W: Work<S>>(ends: [Option<&Seam>; 2], plan: &Plan<S, W>) {
     let mut looks = 0;
     while looks < LOOKS {

@@ -7,8 +7,8 @@ use std::sync::Mutex;
 const STAGES: &[(On, usize)] =
     &[(On::Points, 0), (On::Nodes, 1), (On::Points, 2), (On::Nodes, 3), (On::Points, 4), (On::Points, 5)];
 
-/// Runs one sweep, or several with a part of the stages each, on fields of so many bands in so many parts on so many threads, and checks that
-/// every stage finds done what it needs. `load` gives the points of a band, of so many in all.
+/// Runs one sweep, or several with a part of the stages each, on fields of so many bands, in so many parts on so many threads, and
+/// checks that every stage finds done what it needs. `load` gives the points of a band, of so many in all.
 fn check(fields: &[usize], [threads, parts]: [usize; 2], sweeps: &[&[(On, usize)]], load: fn(usize, usize) -> usize) {
     let (mut number, count) = (0, fields.iter().sum());
     let mut band = |k: usize| {

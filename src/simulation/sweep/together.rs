@@ -26,7 +26,7 @@ pub fn together(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     );
 }
 
-/// Does what has no parts, or few: another thread stays awake meanwhile and takes what [`together`] offers it.
+/// Does what has no parts, or few: another thread stays awake for a while and takes what [`together`] offers it.
 pub fn alone(work: impl FnOnce() + Send) {
     let done = AtomicBool::new(false);
     rayon::join(
@@ -36,8 +36,11 @@ pub fn alone(work: impl FnOnce() + Send) {
         },
         || {
             wait(|| {
-                rayon::yield_now();
-                !is(&done)
+                let go_on = !is(&done);
+                if go_on {
+                    rayon::yield_now();
+                }
+                go_on
             })
         },
     );
@@ -50,8 +53,11 @@ pub fn beside(sweep: impl FnOnce() + Send, work: impl FnOnce() + Send) {
         || {
             sweep();
             wait(|| {
-                rayon::yield_now();
-                is(&begun) && !is(&done)
+                let go_on = is(&begun) && !is(&done);
+                if go_on {
+                    rayon::yield_now();
+                }
+                go_on
             });
         },
         || {
