@@ -1,6 +1,6 @@
 use super::*;
 use crate::constitutive::{AnyLaw, LinearElastic};
-use crate::verification::scene::{Brick, Lcg};
+use crate::scaffold::{Brick, Lcg};
 use std::collections::BTreeMap;
 
 const H: f64 = 0.1;

@@ -42,6 +42,7 @@ pub mod momentum;
 pub mod output;
 pub mod plot;
 pub mod run;
+pub mod scaffold;
 pub mod shape;
 pub mod simulation;
 #[cfg(test)]
@@ -50,8 +51,4 @@ pub mod study;
 pub mod theory;
 pub mod timestep;
 pub mod transfer;
-#[path = "../validation/mod.rs"]
-pub mod validation;
 pub mod vector;
-#[path = "../verification/mod.rs"]
-pub mod verification;

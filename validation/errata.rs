@@ -1,10 +1,10 @@
 //! The numbers of `ERRATA.md`, computed again from the closed forms: what the page prints in bold, and nothing else.
 
-use crate::theory::barrier::{bending_energy, buckling_density, normalised_stiffness, tip_stiffness, young_for};
-use crate::theory::drucker_prager as cone;
-use crate::theory::earth_pressure::{Wall, jaky};
-use crate::theory::pic::numerical_viscosity;
-use crate::theory::sliding_block::acceleration_from_rest;
+use checkdam::theory::barrier::{bending_energy, buckling_density, normalised_stiffness, tip_stiffness, young_for};
+use checkdam::theory::drucker_prager as cone;
+use checkdam::theory::earth_pressure::{Wall, jaky};
+use checkdam::theory::pic::numerical_viscosity;
+use checkdam::theory::sliding_block::acceleration_from_rest;
 use std::collections::BTreeSet;
 
 const PAGE: &str = include_str!("ERRATA.md");

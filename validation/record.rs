@@ -1,10 +1,10 @@
 //! Recorded runs of a study: made anew when asked for, read otherwise.
 
 use super::{Context, Failure};
-use crate::case::{Case, Integration};
-use crate::output::{OutputError, Table};
-use crate::study::{PlannedRun, Runs, Study, StudyError, one, plan, run};
-use crate::verification::report::quoted;
+use checkdam::case::{Case, Integration};
+use checkdam::output::{OutputError, Table};
+use checkdam::study::{PlannedRun, Runs, Study, StudyError, one, plan, run};
+use checkdam_verification::report::quoted;
 use std::num::NonZero;
 
 /// A study of the project and the record of its runs.
@@ -76,7 +76,7 @@ impl Record {
     fn run(&self, study: &Study, plan: &[PlannedRun], context: &mut Context) -> Result<String, Failure> {
         let folder = context.folder.join(self.name);
         std::fs::create_dir_all(&folder)
-            .map_err(|source| crate::output::OutputError::Create { path: folder.clone(), source })?;
+            .map_err(|source| checkdam::output::OutputError::Create { path: folder.clone(), source })?;
         let mut runs = Runs::open(&folder.join("runs.csv"), &study.columns());
         let progress = &mut *context.progress;
         let start = std::time::Instant::now();

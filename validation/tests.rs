@@ -1,10 +1,10 @@
 //! Runs the validations. What must hold whatever the sources say is judged first, then tables and figures are compared with those
 //! in `reports/validation`; after a change that is meant, `cargo reports` writes them anew.
 
-use checkdam::validation::record::{RecordedRun, processors, spread_out};
-use checkdam::validation::{Context, Failure, STUDIES, VALIDATIONS, Validation, write};
-use checkdam::verification::report::{Caught, faults_csv};
-use checkdam::verification::{Fault, Outcome};
+use checkdam_validation::record::{RecordedRun, processors, spread_out};
+use checkdam_validation::{Context, Failure, STUDIES, VALIDATIONS, Validation, write};
+use checkdam_verification::report::{Caught, faults_csv};
+use checkdam_verification::{Fault, Outcome};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,7 +14,7 @@ fn validation(name: &str) -> &'static Validation {
 }
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 fn folder(name: &str) -> PathBuf {

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::record::processors;
-use crate::run::{ProgressFn, RunError};
+use checkdam::run::{ProgressFn, RunError};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 

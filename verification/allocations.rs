@@ -27,7 +27,7 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn a_step_allocates_nothing() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/flume/40deg.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/flume/40deg.toml");
     let mut case = checkdam::case::load(&path).expect("a valid case").case;
     case.grid.spacing_m = 0.02;
     assert_eq!(allocations_of(&case), 0);

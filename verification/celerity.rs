@@ -8,10 +8,10 @@
 use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, THICKNESS, points_by_number, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::simulation::Simulation;
-use crate::theory::{bar, dispersion, elastic, order};
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::simulation::Simulation;
+use checkdam::theory::{bar, dispersion, elastic, order};
 use nalgebra::Vector2;
 
 /// The rung.

@@ -20,12 +20,12 @@
 use super::report::table_csv;
 use super::scene::{Material, THICKNESS};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::boundary::{Friction, Opening};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::run::records::MomentumRow;
-use crate::simulation::PicShare;
-use crate::theory::collapse as law;
-use crate::validation::column::release::{Column, GRAVITY, depth_between, fronts};
+use crate::release::{Column, GRAVITY, depth_between, fronts};
+use checkdam::boundary::{Friction, Opening};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::run::records::MomentumRow;
+use checkdam::simulation::PicShare;
+use checkdam::theory::collapse as law;
 use rayon::prelude::*;
 
 /// The rung.

@@ -7,12 +7,12 @@
 use super::report::named_csv;
 use super::scene::{Brick, Material, THICKNESS, points_by_number, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Kind, Tolerance};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::elastic::confined_speed;
-use crate::theory::{drucker_prager, earth_pressure};
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::elastic::confined_speed;
+use checkdam::theory::{drucker_prager, earth_pressure};
 use nalgebra::Vector2;
 
 /// The rung.
@@ -72,13 +72,13 @@ fn settle(cone: Cone, fault: &Fault) -> Result<AtRest, RungFailure> {
     }
     let (tally, dt) = (sim.step_tallies()[0], sim.time_step().dt);
     let points = points_by_number(&sim);
-    let deep = |p: &&crate::body::Particle| p.x[1] < 0.9 * HEIGHT;
-    let ratio = |p: &crate::body::Particle| p.state.stress.xx / p.state.stress.yy;
+    let deep = |p: &&checkdam::body::Particle| p.x[1] < 0.9 * HEIGHT;
+    let ratio = |p: &checkdam::body::Particle| p.state.stress.xx / p.state.stress.yy;
     let count = points.iter().filter(deep).count() as f64;
     let mean = points.iter().filter(deep).map(ratio).sum::<f64>() / count;
     let spread = points.iter().filter(deep).map(|p| (ratio(p) - mean).abs()).fold(0.0, f64::max);
     let rows = points.chunks(2 * CELLS[0]).map(|row| {
-        let sum = |f: fn(&crate::body::Particle) -> f64| row.iter().map(f).sum::<f64>() / row.len() as f64;
+        let sum = |f: fn(&checkdam::body::Particle) -> f64| row.iter().map(f).sum::<f64>() / row.len() as f64;
         [HEIGHT - sum(|p| p.x[1]), -sum(|p| p.state.stress.yy), -sum(|p| p.state.stress.xx)]
     });
     Ok(AtRest {

@@ -6,10 +6,10 @@
 use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::check::{Check, Kind, Tolerance};
-use crate::ledger::EnergyBalance;
-use crate::simulation::{PicShare, Scheme, Simulation};
-use crate::theory::{bar, elastic, order, pic};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::ledger::EnergyBalance;
+use checkdam::simulation::{PicShare, Scheme, Simulation};
+use checkdam::theory::{bar, elastic, order, pic};
 
 /// The rung.
 pub const RUNG: Rung = Rung {

@@ -1,8 +1,8 @@
 //! Figures of the ladder: what to draw from which table. They are drawn from the tables' text and from nothing else.
 
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel, panel};
-use crate::plot::heat_map::{self, HeatMap};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves, Panel, panel};
+use checkdam::plot::heat_map::{self, HeatMap};
 use std::path::Path;
 
 /// A figure of a rung.

@@ -8,12 +8,12 @@
 use super::report::named_csv;
 use super::scene::{Brick, Material, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::check::{Check, Kind, Tolerance};
-use crate::constitutive::{AnyLaw, Increment, Law, NeoHookean, PointState};
-use crate::shape::ShapeFunction;
-use crate::simulation::Simulation;
-use crate::theory::elastic::bar_speed;
-use crate::theory::neo_hookean as theory;
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::constitutive::{AnyLaw, Increment, Law, NeoHookean, PointState};
+use checkdam::shape::ShapeFunction;
+use checkdam::simulation::Simulation;
+use checkdam::theory::elastic::bar_speed;
+use checkdam::theory::neo_hookean as theory;
 use std::f64::consts::PI;
 
 /// The rung.

@@ -2,9 +2,9 @@
 
 use super::figures::draw_figures;
 use super::{Fault, FaultKind, Outcome, RUNGS, Rung};
-use crate::check::{Check, Expected, significant};
-use crate::output::{OutputError, write_text};
-use crate::plot::PlotError;
+use checkdam::check::{Check, Expected, significant};
+use checkdam::output::{OutputError, write_text};
+use checkdam::plot::PlotError;
 use std::path::Path;
 
 /// Significant digits in reports.
@@ -204,8 +204,8 @@ pub fn quoted(s: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::{Kind, Tolerance};
-    use crate::verification::RungFailure;
+    use crate::RungFailure;
+    use checkdam::check::{Kind, Tolerance};
 
     /// A rung whose checks fail, but only one of them on a number that was measured against physics.
     fn failing(fault: &Fault) -> Result<Outcome, RungFailure> {

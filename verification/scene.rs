@@ -1,69 +1,9 @@
-//! Building blocks of the rungs' scenes.
+//! Building blocks of the rungs' scenes: those of [`checkdam::scaffold`], and materials that know of the fault.
 
-use super::Fault;
-use crate::body::{Body, Particle};
-use crate::boundary::Boundary;
-use crate::constitutive::{AnyLaw, LinearElastic};
-use crate::grid::Lattice;
-use crate::shape::ShapeFunction;
-use crate::simulation::{Numerics, PicShare, Scene, Scheme, Simulation};
-use crate::theory::elastic::Elastic;
-use crate::verification::RungFailure;
-
-/// Extent of every scene across the plane, m.
-pub const THICKNESS: f64 = 0.1;
-
-/// A lattice of material points: its lower left corner, its size in cells, its inclination.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Brick {
-    /// Lower left corner, m.
-    pub corner: [f64; 2],
-    /// Cells along its base and its side.
-    pub cells: [usize; 2],
-    /// Cell size, m.
-    pub spacing: f64,
-    /// Points per cell and direction.
-    pub per_cell: usize,
-    /// Angle of the base against x, rad.
-    pub angle: f64,
-}
-
-impl Brick {
-    /// A brick of `cells` cells at `corner`, aligned with the grid, with two points per cell and direction.
-    pub fn new(corner: [f64; 2], cells: [usize; 2], spacing: f64) -> Self {
-        Self { corner, cells, spacing, per_cell: 2, angle: 0.0 }
-    }
-
-    /// The points, at rest and free of stress, numbered along the base first.
-    pub fn points(&self) -> Vec<Particle> {
-        let s = self.spacing / self.per_cell as f64;
-        let (nx, ny) = (self.cells[0] * self.per_cell, self.cells[1] * self.per_cell);
-        let (c, t) = (libm::cos(self.angle), libm::sin(self.angle));
-        (0..nx * ny)
-            .map(|k| {
-                let (a, b) = (((k % nx) as f64 + 0.5) * s, ((k / nx) as f64 + 0.5) * s);
-                Particle::at_rest(k as u32, [self.corner[0] + c * a - t * b, self.corner[1] + t * a + c * b])
-            })
-            .collect()
-    }
-
-    /// A body of `law` whose points are those of this brick.
-    pub fn body(&self, law: AnyLaw, density: f64) -> Body {
-        let s = self.spacing / self.per_cell as f64;
-        let volume = s * s * THICKNESS;
-        Body {
-            name: "brick".into(),
-            law,
-            point_mass: density * volume,
-            point_volume: volume,
-            points_per_direction: self.per_cell,
-            point_spacing: s,
-            weightless: false,
-            between_side_walls: true,
-            implicit: false,
-        }
-    }
-}
+use crate::Fault;
+use checkdam::constitutive::{AnyLaw, LinearElastic};
+pub use checkdam::scaffold::{Brick, Lcg, THICKNESS, centre, points_by_number, run_until, scene};
+use checkdam::theory::elastic::Elastic;
 
 /// Material parameters of a rung. The solver gets them with the fault, the closed forms without.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,76 +28,5 @@ impl Material {
     /// The elastic law as the solver gets it.
     pub fn law(&self, fault: &Fault) -> AnyLaw {
         AnyLaw::LinearElastic(self.linear_elastic(fault))
-    }
-}
-
-/// A scene of one brick: uGIMP, MUSL, no PIC, no gravity, unless changed.
-pub fn scene(brick: &Brick, law: AnyLaw, density: f64, points: Vec<Particle>, boundaries: Vec<Boundary>) -> Scene {
-    Scene {
-        lattice: Lattice { spacing: brick.spacing, origin: [0.0, 0.0] },
-        thickness: THICKNESS,
-        domain: [[-1e3, 1e3], [-1e3, 1e3]],
-        bodies: vec![(brick.body(law, density), points)],
-        boundaries,
-        gravity: [0.0, 0.0],
-        contacts: vec![],
-        side_wall_friction: 0.0,
-        numerics: Numerics {
-            scheme: Scheme::Musl,
-            shape: ShapeFunction::Ugimp,
-            cfl: 0.4,
-            max_time_step: 1.0,
-            pic: PicShare::Fraction(0.0),
-        },
-    }
-}
-
-/// Steps until `time` is reached.
-pub fn run_until(simulation: &mut Simulation, time: f64) -> Result<(), RungFailure> {
-    while simulation.time() < time {
-        simulation.step()?;
-    }
-    Ok(())
-}
-
-/// The points in the order of their numbers.
-pub fn points_by_number(simulation: &Simulation) -> Vec<Particle> {
-    let mut points: Vec<Particle> = simulation.particles().map(|(_, p)| p).collect();
-    points.sort_by_key(|p| p.id);
-    points
-}
-
-/// Mean position and velocity of all points (of equal mass).
-pub fn centre(simulation: &Simulation) -> ([f64; 2], [f64; 2]) {
-    let (mut x, mut v, mut n) = ([0.0; 2], [0.0; 2], 0.0);
-    for p in points_by_number(simulation) {
-        for d in 0..2 {
-            x[d] += p.x[d];
-            v[d] += p.v[d];
-        }
-        n += 1.0;
-    }
-    (x.map(|s| s / n), v.map(|s| s / n))
-}
-
-/// Numbers in [0, 1) from a linear congruential generator (Knuth's MMIX constants): the same on every machine.
-#[derive(Debug, Clone)]
-pub struct Lcg(u64);
-
-impl Lcg {
-    /// From a seed.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// The next number.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// The next number in [-1, 1).
-    pub fn signed(&mut self) -> f64 {
-        2.0 * self.unit() - 1.0
     }
 }

@@ -12,12 +12,12 @@
 use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, THICKNESS, points_by_number, run_until, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::elastic::confined_speed;
-use crate::theory::order;
-use crate::theory::self_weight::Column;
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::elastic::confined_speed;
+use checkdam::theory::order;
+use checkdam::theory::self_weight::Column;
 use nalgebra::Vector2;
 
 /// The rung.

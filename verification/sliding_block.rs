@@ -14,11 +14,11 @@
 use super::report::named_csv;
 use super::scene::{Brick, Material, THICKNESS, centre, points_by_number, run_until, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::body::Particle;
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Kind, Tolerance};
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::sliding_block as theory;
+use checkdam::body::Particle;
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::sliding_block as theory;
 use nalgebra::Vector2;
 
 /// The rung.

@@ -1,8 +1,8 @@
 //! Runs the ladder. Physics is judged first, then the reports are compared with those in `reports/verification`; after a
 //! change of the physics that is meant, `cargo reports` writes them anew.
 
-use checkdam::verification::report::{Caught, faults_csv, ladder_csv, write};
-use checkdam::verification::{Fault, FaultKind, RUNGS, Rung};
+use checkdam_verification::report::{Caught, faults_csv, ladder_csv, write};
+use checkdam_verification::{Fault, FaultKind, RUNGS, Rung};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -11,7 +11,7 @@ fn rung(name: &str) -> &'static Rung {
 }
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 /// Compares a report with the one in `reports/verification`.
@@ -165,7 +165,7 @@ fn no_snapshot_waits_for_a_decision() {
 
 #[test]
 fn every_rung_has_a_figure_and_every_report_a_rung() {
-    use checkdam::verification::figures::FIGURES;
+    use checkdam_verification::figures::FIGURES;
     for rung in RUNGS {
         assert!(FIGURES.iter().any(|f| f.rung == rung.name), "{} has no figure", rung.name);
     }

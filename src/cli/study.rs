@@ -5,7 +5,7 @@ use super::progress::StudyDisplay;
 use super::{BAD_INPUT, ENDED_EARLY, stop_on_ctrl_c};
 use checkdam::output::write_text;
 use checkdam::study::{Runs, Study, StudyError, draw, plan, run};
-use checkdam::validation::{VALIDATIONS, Validation};
+use checkdam_validation::{VALIDATIONS, Validation};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

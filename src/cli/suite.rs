@@ -3,7 +3,7 @@
 use super::console::{say, tell};
 use super::{BAD_INPUT, CHECK_FAILED, ENDED_EARLY};
 use checkdam::plot::PlotError;
-use checkdam::verification::Outcome;
+use checkdam_verification::Outcome;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;

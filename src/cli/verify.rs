@@ -1,7 +1,7 @@
 //! `checkdam verify`.
 
 use super::suite::{Ended, Suite};
-use checkdam::verification::{Fault, RUNGS, Rung, report};
+use checkdam_verification::{Fault, RUNGS, Rung, report};
 use std::path::Path;
 use std::process::ExitCode;
 

@@ -58,7 +58,7 @@ pub fn log1p(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verification::scene::Lcg;
+    use crate::scaffold::Lcg;
 
     fn same(x: f64) {
         let (found, expected) = (log1p(x), libm::log1p(x));

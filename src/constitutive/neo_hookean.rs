@@ -123,9 +123,9 @@ impl Law for NeoHookean {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scaffold::Lcg;
     use crate::theory::elastic::Elastic;
     use crate::theory::neo_hookean::{self as theory, Gradient};
-    use crate::verification::scene::Lcg;
 
     const MATERIAL: Elastic = Elastic { young: 1e6, poisson: 0.3 };
 

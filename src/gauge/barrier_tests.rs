@@ -1,7 +1,7 @@
 use super::*;
 use crate::boundary::{Boundary, Friction};
 use crate::constitutive::{AnyLaw, LinearElastic};
-use crate::verification::scene::{Brick, THICKNESS, scene};
+use crate::scaffold::{Brick, THICKNESS, scene};
 use nalgebra::Vector2;
 
 const H: f64 = 0.01;

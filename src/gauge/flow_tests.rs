@@ -2,8 +2,8 @@ use super::*;
 use crate::body::{Body, Particle};
 use crate::boundary::{Boundary, Friction, Opening};
 use crate::constitutive::{AnyLaw, LinearElastic};
+use crate::scaffold::{Brick, THICKNESS, scene};
 use crate::simulation::Scene;
-use crate::verification::scene::{Brick, THICKNESS, scene};
 use nalgebra::Vector2;
 
 /// Mass (kg) and volume (m3) of a point of the two bodies: what is weighted wrongly shows.

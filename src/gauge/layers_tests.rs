@@ -2,7 +2,7 @@ use super::*;
 use crate::body::Particle;
 use crate::boundary::{Boundary, Friction};
 use crate::constitutive::{AnyLaw, LinearElastic, PointState, Stress};
-use crate::verification::scene::{Brick, THICKNESS, scene};
+use crate::scaffold::{Brick, THICKNESS, scene};
 use nalgebra::Vector2;
 
 const H: f64 = 0.02;

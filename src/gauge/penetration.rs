@@ -59,13 +59,11 @@ pub fn measure(simulation: &Simulation, structure: usize, outline: &Outline, bey
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verification::Fault;
-    use crate::verification::scene::{Brick, Material, scene};
+    use crate::scaffold::{Brick, elastic, scene};
 
     #[test]
     fn a_brick_pushed_into_another() {
-        let (material, h) = (Material::new(1e6, 0.0, 1000.0), 0.1);
-        let law = material.law(&Fault::NONE);
+        let (law, density, h) = (elastic(1e6, 0.0), 1000.0, 0.1);
         let wall = Brick { angle: 0.3, ..Brick::new([0.0, 0.0], [4, 10], h) };
         let outline = Outline::trace(&wall.points().iter().map(|p| (p.id, p.x)).collect::<Vec<_>>(), 0.05, 0.3);
         let (c, s) = (libm::cos(0.3), libm::sin(0.3));
@@ -73,8 +71,8 @@ mod tests {
             // Beside the wall's left face, `gap` away from it; two columns of 4 x 2 points.
             let at = |a: f64, b: f64| [c * a - s * b, s * a + c * b];
             let other = Brick { angle: 0.3, ..Brick::new(at(-0.1 - gap, 0.4), [1, 2], h) };
-            let mut scene = scene(&wall, law, material.density, wall.points(), vec![]);
-            scene.bodies.push((other.body(law, material.density), other.points()));
+            let mut scene = scene(&wall, law, density, wall.points(), vec![]);
+            scene.bodies.push((other.body(law, density), other.points()));
             let simulation = Simulation::new(scene);
             let found = measure(&simulation, 0, &outline, 0.05);
             assert!((found.deepest - depth).abs() < 1e-9, "{gap}: {found:?}");
@@ -86,14 +84,13 @@ mod tests {
 
     #[test]
     fn points_that_barely_enter_are_found_on_every_side() {
-        let (material, h) = (Material::new(1e6, 0.0, 1000.0), 0.1);
-        let law = material.law(&Fault::NONE);
+        let (law, density, h) = (elastic(1e6, 0.0), 1000.0, 0.1);
         let wall = Brick::new([0.0, 0.0], [4, 10], h);
         let outline = Outline::trace(&wall.points().iter().map(|p| (p.id, p.x)).collect::<Vec<_>>(), 0.05, 0.0);
         let measured = |corner: [f64; 2]| {
             let other = Brick::new(corner, [1, 1], h);
-            let mut scene = scene(&wall, law, material.density, wall.points(), vec![]);
-            scene.bodies.push((other.body(law, material.density), other.points()));
+            let mut scene = scene(&wall, law, density, wall.points(), vec![]);
+            scene.bodies.push((other.body(law, density), other.points()));
             measure(&Simulation::new(scene), 0, &outline, 0.0)
         };
         // The middles of the nearest points are 15 mm outside of the surface, and 40 mm outside of the ring.

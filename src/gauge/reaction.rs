@@ -94,8 +94,7 @@ impl ReactionGauge {
 mod tests {
     use super::*;
     use crate::boundary::{Boundary, Friction};
-    use crate::verification::Fault;
-    use crate::verification::scene::{Brick, Material, THICKNESS, run_until, scene};
+    use crate::scaffold::{Brick, THICKNESS, elastic, run_until, scene};
     use nalgebra::Vector2;
 
     #[test]
@@ -130,10 +129,10 @@ mod tests {
     #[test]
     fn a_clamp_carries_weight_and_moment() {
         // A beam pushed across by a body force equal to a tenth of its weight.
-        let (material, h) = (Material::new(1e6, 0.0, 1000.0), 0.025);
+        let (law, density, h) = (elastic(1e6, 0.0), 1000.0, 0.025);
         let brick = Brick::new([0.0, -2.0 * h], [4, 22], h);
         let clamp = Boundary::plane("clamp", Vector2::new(0.05, 0.0), Vector2::new(0.0, 1.0), Friction::Bonded);
-        let mut scene = scene(&brick, material.law(&Fault::NONE), material.density, brick.points(), vec![clamp]);
+        let mut scene = scene(&brick, law, density, brick.points(), vec![clamp]);
         scene.gravity = [0.1, -1.0];
         scene.numerics.pic = crate::simulation::PicShare::Fraction(0.02);
         let mut simulation = crate::simulation::Simulation::new(scene);
@@ -146,7 +145,7 @@ mod tests {
         }
         let found = gauge.sample();
         // The nodes on the plane hold the part of the beam inside the clamp and take the weight of that, too.
-        let mass = material.density * 0.1 * 22.0 * h * THICKNESS;
+        let mass = density * 0.1 * 22.0 * h * THICKNESS;
         assert!((found.force[0] / (0.1 * mass) - 1.0).abs() < 1e-3, "{found:?}");
         assert!((found.force[1] / -mass - 1.0).abs() < 1e-3, "{found:?}");
         // Weights times arms as the beam hangs over; clockwise.

@@ -382,7 +382,7 @@ fn momentum_columns(boundaries: &[String]) -> Vec<String> {
 }
 
 /// Outlines of the boundaries that stay, planes cut to a strip two cells thick along the domain.
-pub(crate) fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
+pub fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
     let fixed = |b: &&Boundary| b.opening.is_none();
     simulation
         .boundaries()

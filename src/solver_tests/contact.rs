@@ -4,8 +4,8 @@ use super::*;
 use crate::body::Particle;
 use crate::boundary::Friction;
 use crate::contact::rule::{ContactRule, GapRule, NormalRule};
+use crate::scaffold::{THICKNESS, points_by_number};
 use crate::simulation::{AccelerationField, PicShare, Scheme};
-use crate::verification::scene::{THICKNESS, points_by_number};
 use nalgebra::Vector2;
 use std::sync::Arc;
 

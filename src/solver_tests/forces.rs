@@ -3,9 +3,9 @@
 use super::*;
 use crate::body::Particle;
 use crate::constitutive::Stress;
+use crate::scaffold::{Lcg, THICKNESS, points_by_number};
 use crate::shape::ShapeFunction;
 use crate::simulation::{AccelerationField, PicShare, Scheme};
-use crate::verification::scene::{Lcg, THICKNESS, points_by_number};
 use std::sync::Arc;
 
 #[test]

@@ -9,8 +9,8 @@ mod motion;
 use crate::boundary::Boundary;
 use crate::constitutive::{AnyLaw, LinearElastic};
 use crate::ledger::Stock;
+use crate::scaffold::{Brick, scene};
 use crate::simulation::{Scene, Simulation};
-use crate::verification::scene::{Brick, scene};
 
 const H: f64 = 0.1;
 const DENSITY: f64 = 1000.0;

@@ -4,7 +4,7 @@ use super::*;
 use crate::body::{Body, Particle};
 use crate::boundary::{Friction, Opening};
 use crate::constitutive::Stress;
-use crate::verification::scene::{THICKNESS, points_by_number};
+use crate::scaffold::{THICKNESS, points_by_number};
 use nalgebra::Vector2;
 
 #[test]

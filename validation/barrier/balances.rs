@@ -1,9 +1,9 @@
 //! What must hold in any run of the barrier: momentum and energy add up, the barrier's forces are in balance, nothing passes through.
 
-use crate::check::{Check, Kind};
-use crate::run::Summary;
-use crate::run::structure::TORN;
-use crate::validation::flume::runs::Run;
+use crate::flume::runs::Run;
+use checkdam::check::{Check, Kind};
+use checkdam::run::Summary;
+use checkdam::run::structure::TORN;
 
 /// Share of the energy at release that may remain unaccounted for.
 pub const ENERGY: f64 = 0.02;

@@ -7,17 +7,17 @@
 //! take turns, and a quarter of a cell is allowed for what is left. Moved grids show it.
 
 use super::records::{LITERAL, height, read_case};
-use crate::case::parse;
-use crate::check::{Check, Kind, Tolerance};
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves};
-use crate::run::scene;
-use crate::simulation::Simulation;
-use crate::theory::cantilever::Cantilever;
-use crate::theory::elastic::Elastic;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::report::number;
-use crate::verification::{FaultKind, Outcome};
+use crate::{Context, Failure, Validation};
+use checkdam::case::parse;
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves};
+use checkdam::run::scene;
+use checkdam::simulation::Simulation;
+use checkdam::theory::cantilever::Cantilever;
+use checkdam::theory::elastic::Elastic;
+use checkdam_verification::report::number;
+use checkdam_verification::{FaultKind, Outcome};
 use std::path::Path;
 
 /// The comparison.

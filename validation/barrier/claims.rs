@@ -10,12 +10,12 @@ use super::density::{self, Range};
 use super::records::{LITERAL, RIGIDITY, height, impact_coefficient};
 use super::rigidity::{self, Analysis, Point, crossing, front};
 use super::{PUBLISHED, data};
-use crate::case::Case;
-use crate::check::{Check, Kind};
-use crate::plot::PlotError;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::{number, quoted};
+use crate::{Context, Failure, Validation};
+use checkdam::case::Case;
+use checkdam::check::{Check, Kind};
+use checkdam::plot::PlotError;
+use checkdam_verification::Outcome;
+use checkdam_verification::report::{number, quoted};
 use std::path::Path;
 
 /// The table.
@@ -174,7 +174,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             false => "no",
         });
         let why = if verdict.contains(&"no") { explained(claim.why, &results) } else { String::new() };
-        let shown = ours.map(|x| if x.is_finite() { crate::check::significant(x, 3) } else { String::new() });
+        let shown = ours.map(|x| if x.is_finite() { checkdam::check::significant(x, 3) } else { String::new() });
         text += &format!(
             "{},{},{},{},{},{},{},{},{},{},{},{}\n",
             claim.id,
@@ -214,7 +214,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     );
     for r in &results.densities {
         let numbers = [r.ends[0].0, r.ends[1].0, r.ends[1].1 / r.ends[0].1, r.impedances[1] / r.impedances[0], 1.0];
-        text += &format!("{},{}\n", r.stiffness, numbers.map(|x| crate::check::significant(x, 3)).join(","));
+        text += &format!("{},{}\n", r.stiffness, numbers.map(|x| checkdam::check::significant(x, 3)).join(","));
     }
     outcome.tables.push(("barrier_claims_density".into(), text));
     Ok(outcome)

@@ -6,12 +6,12 @@
 //! would not matter.
 
 use super::records::{DENSITY, SCATTER, height, impedance, on_rigid_wall, peaks, young_of_one};
-use crate::check::{Check, Expected, Kind};
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, panel};
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::{Context, Failure, Validation};
+use checkdam::check::{Check, Expected, Kind};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves, panel};
+use checkdam_verification::Outcome;
+use checkdam_verification::report::number;
 use std::path::Path;
 
 /// The analysis of the recorded runs.

@@ -2,14 +2,14 @@
 
 use super::balances::Balances;
 use super::records::{FINE, SCATTER, on_cells, on_study_cells};
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, panel};
-use crate::theory::order::Study as Order;
-use crate::validation::flume::runs::Run;
-use crate::validation::flume::scatter::Scatter;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::flume::runs::Run;
+use crate::flume::scatter::Scatter;
+use crate::{Context, Failure, Validation};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves, panel};
+use checkdam::theory::order::Study as Order;
+use checkdam_verification::Outcome;
+use checkdam_verification::report::number;
 use std::path::Path;
 
 /// The analysis of the recorded runs.

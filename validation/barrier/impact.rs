@@ -4,15 +4,15 @@
 use super::balances::{Balances, largest};
 use super::close_up::BARRIERS;
 use super::records::{LITERAL, RIGIDITY};
-use crate::check::Check;
-use crate::gauge::StructureSample;
-use crate::plot::PlotError;
-use crate::run::{Records, Summary, run_in_memory};
-use crate::study::quantities::{QUANTITIES, measure};
-use crate::validation::watch::watched;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::report::number;
-use crate::verification::{Fault, FaultKind, Outcome};
+use crate::watch::watched;
+use crate::{Context, Failure, Validation};
+use checkdam::check::Check;
+use checkdam::gauge::StructureSample;
+use checkdam::plot::PlotError;
+use checkdam::run::{Records, Summary, run_in_memory};
+use checkdam::study::quantities::{QUANTITIES, measure};
+use checkdam_verification::report::number;
+use checkdam_verification::{Fault, FaultKind, Outcome};
 use std::path::Path;
 
 /// The runs.

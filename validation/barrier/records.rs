@@ -1,14 +1,14 @@
 //! The studies of the barrier and their records.
 
-use crate::case::{Body, Case};
-use crate::output::Table;
-use crate::run::scene;
-use crate::study::PlannedRun;
-use crate::theory::elastic::{Elastic, confined_speed};
-use crate::validation::flume::runs::{self, Run};
-use crate::validation::flume::scatter::Scatter;
-use crate::validation::record::Record;
-use crate::validation::{Context, Failure};
+use crate::flume::runs::{self, Run};
+use crate::flume::scatter::Scatter;
+use crate::record::Record;
+use crate::{Context, Failure};
+use checkdam::case::{Body, Case};
+use checkdam::output::Table;
+use checkdam::run::scene;
+use checkdam::study::PlannedRun;
+use checkdam::theory::elastic::{Elastic, confined_speed};
 
 /// A study, and the columns of what it varies.
 #[derive(Debug, Clone, Copy)]
@@ -157,7 +157,7 @@ pub fn height(case: &Case) -> f64 {
 /// Young's modulus of a barrier of the normalised stiffness 1, Pa, for the height and thickness of the case.
 pub fn young_of_one(case: &Case) -> f64 {
     let depth = barrier(case).map_or(f64::NAN, |b| b.size_m()[0]);
-    crate::theory::barrier::young_for(1.0, height(case), depth, case.grid.thickness_m)
+    checkdam::theory::barrier::young_for(1.0, height(case), depth, case.grid.thickness_m)
 }
 
 /// Largest force over 20 ms of these runs on the cells of the study.
@@ -193,7 +193,7 @@ mod tests {
     fn every_record_is_that_of_its_study() {
         for study in ALL {
             let (_, plan) = study.record.plan().expect("a study");
-            let table = crate::output::Table::parse(study.record.runs, study.record.name).expect("a record");
+            let table = checkdam::output::Table::parse(study.record.runs, study.record.name).expect("a record");
             let keys = table.cells("key").expect("keys");
             assert!(keys.iter().eq(plan.iter().map(|r| &r.key)), "{}", study.record.name);
             assert!(
@@ -208,7 +208,7 @@ mod tests {
     fn what_is_said_of_all_cases_is_true_of_all() {
         for (name, _) in CASES {
             let text = read_case(name).expect("a case");
-            let case = crate::case::parse(&text, name).expect("a case").case;
+            let case = checkdam::case::parse(&text, name).expect("a case").case;
             assert_eq!(case.gravity.inclination_deg, super::super::INCLINATION_DEG, "{name}");
             assert_eq!(case.grid.spacing_m.to_string(), STUDY_CELL, "{name}");
             if barrier(&case).is_some() {

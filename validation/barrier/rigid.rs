@@ -5,15 +5,15 @@
 
 use super::balances::Balances;
 use super::{INCLINATION_DEG, PUBLISHED};
-use crate::case::parse;
-use crate::check::{Check, Expected, Kind};
-use crate::plot::force_time::{self, ReferenceLine};
-use crate::plot::{PlotError, flow_snapshots};
-use crate::theory::sliding_block::acceleration_from_rest;
-use crate::validation::flume::{Flume, base_friction};
-use crate::validation::{Context, Failure, Validation, data};
-use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::flume::{Flume, base_friction};
+use crate::{Context, Failure, Validation, data};
+use checkdam::case::parse;
+use checkdam::check::{Check, Expected, Kind};
+use checkdam::plot::force_time::{self, ReferenceLine};
+use checkdam::plot::{PlotError, flow_snapshots};
+use checkdam::theory::sliding_block::acceleration_from_rest;
+use checkdam_verification::Outcome;
+use checkdam_verification::report::number;
 use std::path::Path;
 
 /// The prediction.
@@ -61,7 +61,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     }
     outcome.tables.push(("barrier_rigid_against_paper".into(), text));
     let mut text = String::from("quantity,literal,calibrated\n");
-    for quantity in crate::study::quantities::QUANTITIES.iter().filter(|q| q.name != "momentum_closure_1") {
+    for quantity in checkdam::study::quantities::QUANTITIES.iter().filter(|q| q.name != "momentum_closure_1") {
         let numbers: Vec<String> = flumes
             .iter()
             .map(|f| f.get(quantity.name))

@@ -6,15 +6,15 @@
 
 use super::balances::Balances;
 use super::records::{LITERAL, WEIGHT, barrier, height, young_of_one};
-use crate::check::{Check, Expected, Kind};
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves};
-use crate::theory::barrier::buckling_density;
-use crate::validation::flume::runs::Run;
-use crate::validation::flume::scatter::Scatter;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::flume::runs::Run;
+use crate::flume::scatter::Scatter;
+use crate::{Context, Failure, Validation};
+use checkdam::check::{Check, Expected, Kind};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves};
+use checkdam::theory::barrier::buckling_density;
+use checkdam_verification::Outcome;
+use checkdam_verification::report::number;
 use std::path::Path;
 
 /// The analysis of the recorded runs.

@@ -2,14 +2,14 @@
 
 use super::SOURCE;
 use super::plan::{self, CASES, CHANGES, Case, Planned, STEEP_DEG, friction_angles, numbers};
-use super::release::{Deposit, GRAVITY};
 use super::verdict::{Ours, Recorded, even, sentence};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::theory::collapse::slope_run_out;
-use crate::theory::sliding_block::sliding_acceleration;
-use crate::validation::data::{self, Datum};
-use crate::verification::report::{number, table_csv};
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::data::{self, Datum};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::theory::collapse::slope_run_out;
+use checkdam::theory::sliding_block::sliding_acceleration;
+use checkdam_verification::release::{Deposit, GRAVITY};
+use checkdam_verification::report::{number, table_csv};
+use checkdam_verification::{Fault, Outcome, RungFailure};
 
 /// What any collapse must satisfy, whatever a laboratory says.
 pub fn deposit(run: &Planned, deposit: &Deposit, rows: &[Recorded], outcome: &mut Outcome) {
@@ -297,7 +297,7 @@ pub fn tables(name: &str, inclined: bool, runs: &[(&Planned, Deposit)], rows: &[
     let mut front = String::from("case,time_1,run_out_1\n");
     let mut profiles = String::from("case,x_m,depth_m\n");
     for (run, deposit) in runs {
-        let time = (run.case.size[1] / super::release::GRAVITY).sqrt();
+        let time = (run.case.size[1] / checkdam_verification::release::GRAVITY).sqrt();
         for (t, run_out) in deposit.history.iter().filter(|s| s.0 < 20.0 * time).step_by(5) {
             front += &format!("{},{},{}\n", run.case.name, number(t / time), number(run_out[1] / run.case.size[0]));
         }

@@ -8,7 +8,7 @@
 //! varied, and counts as uncertainty.
 
 pub mod plan;
-pub mod release;
+
 pub mod verdict;
 
 mod judge;
@@ -18,9 +18,9 @@ mod tests;
 use super::data::Source;
 use super::record::RecordedRun;
 use super::{Context, Failure, Validation};
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel};
-use crate::verification::{FaultKind, Outcome};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves, Panel};
+use checkdam_verification::{FaultKind, Outcome};
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -178,7 +178,7 @@ fn record(context: &mut Context) -> Result<String, Failure> {
         .collect();
     let lines: Option<String> = lines?.into_iter().collect();
     let text = plan::header() + &lines.ok_or(Failure::Stopped)?;
-    crate::output::write_text(file, &text)?;
+    checkdam::output::write_text(file, &text)?;
     Ok(text)
 }
 
@@ -192,7 +192,7 @@ pub fn rows() -> Result<Vec<RecordedRun>, Failure> {
         let (what, recorded) = (line.splitn(4, ',').take(3).collect::<Vec<_>>().join(", "), line.to_string());
         let cost = planned.cost(numbers.get("rest_1"));
         let anew = move || {
-            let deposit = planned.run(&crate::verification::Fault::NONE)?;
+            let deposit = planned.run(&checkdam_verification::Fault::NONE)?;
             Ok(plan::line(&planned, plan::numbers(&planned.column, &deposit)).trim_end().to_string())
         };
         RecordedRun { what, recorded, cost, anew: Box::new(anew) }
@@ -207,7 +207,7 @@ fn run(context: &mut Context, inclined: bool) -> Result<Outcome, Failure> {
     let coarse: Vec<plan::Planned> =
         plan::coarse().into_iter().filter(|r| (r.case.grains == "slope") == inclined).collect();
     // What notices a fault is the force on the bed; one column is enough for that.
-    let of = if fault == crate::verification::Fault::NONE { &coarse[..] } else { &coarse[..1] };
+    let of = if fault == checkdam_verification::Fault::NONE { &coarse[..] } else { &coarse[..1] };
     let deposits: Result<Vec<_>, _> = of.par_iter().with_max_len(1).map(|r| r.run(&fault)).collect();
     let runs: Vec<_> = of.iter().zip(deposits?).collect();
     let mut outcome = Outcome::default();
@@ -217,7 +217,7 @@ fn run(context: &mut Context, inclined: bool) -> Result<Outcome, Failure> {
     if inclined {
         judge::steep(&fault, &mut outcome)?;
     }
-    if fault == crate::verification::Fault::NONE {
+    if fault == checkdam_verification::Fault::NONE {
         let name = if inclined { SLOPE.name } else { LEVEL.name };
         judge::against_data(name, inclined, &rows, &mut outcome);
         judge::tables(name, inclined, &runs, &rows, &mut outcome);

@@ -1,13 +1,13 @@
 //! The runs: which columns, on which grids, with which inputs changed.
 
 use super::SOURCE;
-use super::release::{Column, Deposit, plane_strain_angle_of_slope};
-use crate::boundary::{Friction, Opening};
-use crate::simulation::PicShare;
-use crate::validation::data;
-use crate::verification::Fault;
-use crate::verification::report::number;
-use crate::verification::scene::Material;
+use crate::data;
+use checkdam::boundary::{Friction, Opening};
+use checkdam::simulation::PicShare;
+use checkdam_verification::Fault;
+use checkdam_verification::release::{Column, Deposit, plane_strain_angle_of_slope};
+use checkdam_verification::report::number;
+use checkdam_verification::scene::Material;
 
 /// A column as it stood in a laboratory.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,7 +117,7 @@ impl Planned {
 
     /// Time in which its height falls, s.
     fn time(&self) -> f64 {
-        (self.column.height / super::release::GRAVITY).sqrt()
+        (self.column.height / checkdam_verification::release::GRAVITY).sqrt()
     }
 
     /// About how many particle-steps it takes to come to rest after so many of its times.
@@ -132,7 +132,7 @@ impl Planned {
     ///
     /// # Errors
     /// Where the solver gives up.
-    pub fn run(&self, fault: &Fault) -> Result<Deposit, crate::verification::RungFailure> {
+    pub fn run(&self, fault: &Fault) -> Result<Deposit, checkdam_verification::RungFailure> {
         self.column.collapse(40.0 * self.time(), fault)
     }
 }
@@ -177,7 +177,7 @@ pub const COLUMNS: [&str; 10] = [
 
 /// What a run gives, in the order of [`COLUMNS`]: lengths over r0, times over sqrt(h0/g).
 pub fn numbers(column: &Column, deposit: &Deposit) -> [f64; 10] {
-    let time = (column.height / super::release::GRAVITY).sqrt();
+    let time = (column.height / checkdam_verification::release::GRAVITY).sqrt();
     let over = |x: f64| x / column.length;
     [
         over(deposit.run_out[1]),

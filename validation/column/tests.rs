@@ -2,8 +2,8 @@
 
 use super::plan::{self, CASES};
 use super::{RECORD, SOURCE, verdict};
-use crate::theory::collapse as law;
-use crate::validation::data;
+use crate::data;
+use checkdam::theory::collapse as law;
 
 fn value(id: &str) -> f64 {
     data::row(SOURCE, id).value

@@ -1,8 +1,8 @@
 //! The verdict on a number: comparison error beside numerical, input and data uncertainty, in the manner of ASME V&V 20 (2009).
 
 use super::plan::{CHANGES, COLUMNS};
-use crate::theory::order::Study;
-use crate::validation::data::Datum;
+use crate::data::Datum;
+use checkdam::theory::order::Study;
 
 /// A line of the record.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,13 +9,13 @@ use super::read_case;
 use super::rules::judge;
 use super::runs::{self, Run};
 use super::scatter::Scatter;
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, panel};
-use crate::theory::order::Study as Order;
-use crate::validation::record::Record;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::number;
+use crate::record::Record;
+use crate::{Context, Failure, Validation};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves, panel};
+use checkdam::theory::order::Study as Order;
+use checkdam_verification::Outcome;
+use checkdam_verification::report::number;
 use std::path::Path;
 
 /// The analysis of the recorded runs.

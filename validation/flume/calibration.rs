@@ -9,14 +9,14 @@ use super::baseline::{self, Numerical};
 use super::rules::judge;
 use super::runs::{self, Run};
 use super::{compare, read_case};
-use crate::output::Table;
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, panel};
-use crate::validation::data::Datum;
-use crate::validation::record::Record;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::{number, quoted};
+use crate::data::Datum;
+use crate::record::Record;
+use crate::{Context, Failure, Validation};
+use checkdam::output::Table;
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves, panel};
+use checkdam_verification::Outcome;
+use checkdam_verification::report::{number, quoted};
 use std::path::Path;
 
 /// The analysis of the recorded runs.
@@ -251,7 +251,7 @@ fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::parse;
+    use checkdam::case::parse;
 
     /// Targets that ask for a force of 10 N at 40 and 20 N at 23 degrees, both to 1 N.
     fn wanted() -> [Vec<Target>; 2] {

@@ -1,8 +1,8 @@
 //! The paper's numbers with ours beside them.
 
 use super::Flume;
-use crate::validation::data::{self, Datum};
-use crate::verification::report::{number, quoted};
+use crate::data::{self, Datum};
+use checkdam_verification::report::{number, quoted};
 
 /// The file of the paper's numbers for the flume.
 pub const PUBLISHED: data::Source = data::SOURCES[0];

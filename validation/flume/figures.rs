@@ -1,13 +1,13 @@
 //! Tables and figures of the flume: what a reader of the paper's Figs. 2, 3, 4 and 15 looks for.
 
 use super::{CASES, Flume, base_friction, compare, run_folder};
-use crate::output::Table;
-use crate::plot::curves::{self, Curve, Curves};
-use crate::plot::force_time::{self, ReferenceLine};
-use crate::plot::{PlotError, energy_shares, flow_snapshots, pressure_profile};
-use crate::theory::jump;
-use crate::theory::sliding_block::acceleration_from_rest;
-use crate::verification::report::{quoted, table_csv};
+use checkdam::output::Table;
+use checkdam::plot::curves::{self, Curve, Curves};
+use checkdam::plot::force_time::{self, ReferenceLine};
+use checkdam::plot::{PlotError, energy_shares, flow_snapshots, pressure_profile};
+use checkdam::theory::jump;
+use checkdam::theory::sliding_block::acceleration_from_rest;
+use checkdam_verification::report::{quoted, table_csv};
 use std::path::Path;
 
 /// Samples of the history in a row of the table of layers: 20 ms.
@@ -70,8 +70,9 @@ fn front(flume: &Flume) -> String {
 /// Force from the impulse and from the stress of 1, 2, 3 layers, means over 20 ms (Eq. 8 and Fig. 15 of the paper).
 fn layers(flume: &Flume) -> String {
     let rows = flume.records.history.chunks(SAMPLES).filter(|c| c.len() == SAMPLES).map(|chunk| {
-        let mean =
-            |value: fn(&crate::run::records::HistoryRow) -> f64| chunk.iter().map(value).sum::<f64>() / SAMPLES as f64;
+        let mean = |value: fn(&checkdam::run::records::HistoryRow) -> f64| {
+            chunk.iter().map(value).sum::<f64>() / SAMPLES as f64
+        };
         vec![mean(|r| r.time), mean(|r| r.normal), mean(|r| r.layers[0]), mean(|r| r.layers[1]), mean(|r| r.layers[2])]
     });
     table_csv(&["time_s", "impulse_n", "layers_1_n", "layers_2_n", "layers_3_n"], rows)

@@ -10,10 +10,10 @@ use super::baseline::{self, Numerical};
 use super::compare::Counterpart;
 use super::runs::{self, Run};
 use super::{calibration, sensitivity};
-use crate::output::Table;
-use crate::validation::Failure;
-use crate::validation::data::Datum;
-use crate::validation::record::Record;
+use crate::Failure;
+use crate::data::Datum;
+use crate::record::Record;
+use checkdam::output::Table;
 
 /// What the paper leaves open: causes of input uncertainty.
 const UNSTATED: [&str; 10] = [

@@ -19,12 +19,12 @@ pub mod verdict;
 
 use super::watch::watched;
 use super::{Context, Failure, Validation};
-use crate::case::{Case, Contact, parse};
-use crate::plot::PlotError;
-use crate::run::{Experiment, Records, Summary, files, run_in_memory};
-use crate::study::quantities::{QUANTITIES, measure};
-use crate::verification::report::number;
-use crate::verification::{Fault, FaultKind, Outcome};
+use checkdam::case::{Case, Contact, parse};
+use checkdam::plot::PlotError;
+use checkdam::run::{Experiment, Records, Summary, files, run_in_memory};
+use checkdam::study::quantities::{QUANTITIES, measure};
+use checkdam_verification::report::number;
+use checkdam_verification::{Fault, FaultKind, Outcome};
 use std::path::{Path, PathBuf};
 
 /// Both angles, from their case files.
@@ -80,7 +80,7 @@ pub(super) fn base_friction(case: &Case) -> f64 {
 
 /// An empty folder.
 fn clear(folder: &Path) -> Result<(), Failure> {
-    let fail = |source| crate::output::OutputError::Create { path: folder.to_path_buf(), source };
+    let fail = |source| checkdam::output::OutputError::Create { path: folder.to_path_buf(), source };
     if folder.is_dir() {
         std::fs::remove_dir_all(folder).map_err(fail)?;
     }

@@ -8,17 +8,17 @@
 use super::runs::{self, Run};
 use super::scatter::Scatter;
 use super::{compare, make_faulty, read_case};
-use crate::case::parse;
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::output::Table;
-use crate::plot::PlotError;
-use crate::study::{Runs, Study, plan};
-use crate::theory::deposit::least_mean_height;
-use crate::validation::data::{self, Datum};
-use crate::validation::record::processors;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::report::number;
-use crate::verification::{Fault, FaultKind, Outcome};
+use crate::data::{self, Datum};
+use crate::record::processors;
+use crate::{Context, Failure, Validation};
+use checkdam::case::parse;
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::output::Table;
+use checkdam::plot::PlotError;
+use checkdam::study::{Runs, Study, plan};
+use checkdam::theory::deposit::least_mean_height;
+use checkdam_verification::report::number;
+use checkdam_verification::{Fault, FaultKind, Outcome};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
@@ -198,7 +198,7 @@ fn runs(context: &mut Context) -> Result<Vec<Run>, Failure> {
     }
     let mut runs = Runs::in_memory(&study.columns());
     let progress = &mut *context.progress;
-    let finished = crate::study::run(&plan, &mut runs, processors(), &mut |p| {
+    let finished = checkdam::study::run(&plan, &mut runs, processors(), &mut |p| {
         progress(&if p.ended.is_some() { format!("{} of {} runs", p.finished, p.total) } else { String::new() })
     })?;
     if !finished.is_complete() {

@@ -1,8 +1,8 @@
 //! What any run of the flume must satisfy, whatever the paper says.
 
 use super::{Flume, base_friction};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::theory::sliding_block::acceleration_from_rest;
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::theory::sliding_block::acceleration_from_rest;
 
 /// The checks.
 pub fn checks(flume: &Flume) -> Vec<Check> {

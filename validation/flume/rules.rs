@@ -1,7 +1,7 @@
 //! What every run of the flume must satisfy, whatever the paper says.
 
 use super::runs::Run;
-use crate::check::{Check, Expected, Kind};
+use checkdam::check::{Check, Expected, Kind};
 
 /// What every run must satisfy; limit equilibrium only where the base and the barrier alone hold the deposit.
 pub fn judge(rows: &[Run], by_base_alone: &dyn Fn(&Run) -> bool) -> Vec<Check> {

@@ -1,8 +1,8 @@
 //! Rows of a table of runs.
 
 use super::compare::Counterpart;
-use crate::output::{OutputError, Table};
-use crate::study::quantities::QUANTITIES;
+use checkdam::output::{OutputError, Table};
+use checkdam::study::quantities::QUANTITIES;
 use std::collections::BTreeMap;
 
 /// One run.

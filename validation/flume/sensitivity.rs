@@ -5,14 +5,14 @@ use super::read_case;
 use super::rules::judge;
 use super::runs::{self, Run};
 use super::scatter::Scatter;
-use crate::output::Table;
-use crate::plot::PlotError;
-use crate::plot::tornado::{self, Tornado};
-use crate::study::quantities::QUANTITIES;
-use crate::validation::record::Record;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::{number, quoted};
+use crate::record::Record;
+use crate::{Context, Failure, Validation};
+use checkdam::output::Table;
+use checkdam::plot::PlotError;
+use checkdam::plot::tornado::{self, Tornado};
+use checkdam::study::quantities::QUANTITIES;
+use checkdam_verification::Outcome;
+use checkdam_verification::report::{number, quoted};
 use std::path::Path;
 
 /// The analysis of the recorded runs.

@@ -2,11 +2,11 @@
 
 use super::compare;
 use super::judge::{Basis, Reading};
-use crate::check::{Check, Kind};
-use crate::plot::PlotError;
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
-use crate::verification::report::{number, quoted};
+use crate::{Context, Failure, Validation};
+use checkdam::check::{Check, Kind};
+use checkdam::plot::PlotError;
+use checkdam_verification::Outcome;
+use checkdam_verification::report::{number, quoted};
 use std::path::Path;
 
 /// The verdict.

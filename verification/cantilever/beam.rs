@@ -1,13 +1,13 @@
 //! The beam on the grid.
 
-use crate::body::Particle;
-use crate::boundary::{Boundary, Friction};
-use crate::shape::ShapeFunction;
-use crate::simulation::{AccelerationField, PicShare, Simulation};
-use crate::theory::cantilever::Cantilever;
-use crate::theory::elastic::confined_speed;
-use crate::verification::scene::{Brick, Material, THICKNESS, points_by_number, run_until, scene};
-use crate::verification::{Fault, RungFailure};
+use crate::scene::{Brick, Material, THICKNESS, points_by_number, run_until, scene};
+use crate::{Fault, RungFailure};
+use checkdam::body::Particle;
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::shape::ShapeFunction;
+use checkdam::simulation::{AccelerationField, PicShare, Simulation};
+use checkdam::theory::cantilever::Cantilever;
+use checkdam::theory::elastic::confined_speed;
 use nalgebra::Vector2;
 use std::sync::Arc;
 

@@ -22,11 +22,11 @@ mod swing;
 use super::report::named_csv;
 use super::scene::Material;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::shape::ShapeFunction;
-use crate::theory::cantilever::elastica;
-use crate::theory::order;
 use beam::{Beam, DEPTH, Load, settle};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::shape::ShapeFunction;
+use checkdam::theory::cantilever::elastica;
+use checkdam::theory::order;
 
 /// The rung.
 pub const RUNG: Rung = Rung {

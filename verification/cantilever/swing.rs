@@ -2,11 +2,11 @@
 
 use super::beam::{Beam, DEPTH, released};
 use super::{MATERIAL, SHAPE_NAMES, SHAPES};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::shape::ShapeFunction;
-use crate::theory::cantilever::first_mode;
-use crate::verification::report::named_csv;
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::report::named_csv;
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::shape::ShapeFunction;
+use checkdam::theory::cantilever::first_mode;
 use std::f64::consts::PI;
 
 /// Period (s) as the mean of two, and energy after 2.5 periods over that at the start.

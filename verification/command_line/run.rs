@@ -66,7 +66,8 @@ fn folders_that_cannot_take_the_results_are_refused() {
 fn a_check_tells_what_would_run() {
     let lab = Lab::new(TINY);
     for name in ["40deg", "23deg"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/flume/{name}.toml"));
+        let path =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("validation/flume/{name}.toml"));
         let outcome = lab.run(&["check", path.to_str().unwrap()]);
         assert_eq!(outcome.code, Some(0), "{outcome:?}");
         let expected = [

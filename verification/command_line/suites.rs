@@ -25,7 +25,7 @@ fn verify_writes_the_reports_byte_for_byte() {
     }
     let once = lab.contents("once");
     assert!(once == lab.contents("again"), "a second run differs");
-    let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/verification");
+    let reports = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("reports/verification");
     assert!(once.keys().any(|name| name.ends_with(".svg")) && once.len() > 12, "{:?}", once.keys());
     for (name, bytes) in &once {
         let (stem, kind) = name.split_once('.').unwrap();
@@ -60,7 +60,8 @@ fn validate_writes_the_reports_byte_for_byte() {
     assert!(results.len() >= 6, "{:?}", results.keys());
     for (name, bytes) in &results {
         let (stem, kind) = name.split_once('.').unwrap();
-        let stored = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("reports/validation/{stem}.snap.{kind}"));
+        let stored = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+            .join(format!("reports/validation/{stem}.snap.{kind}"));
         let stored = fs::read(&stored).unwrap_or_else(|error| panic!("{}: {error}", stored.display()));
         assert!(stored == *bytes, "{name} is not what stands in the reports");
     }

@@ -1,13 +1,13 @@
 //! Two bars that strike each other, and two that part.
 
 use super::scenes::{Part, several, usual};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::contact::rule::ContactRule;
-use crate::simulation::Simulation;
-use crate::theory::elastic::bar_speed;
-use crate::theory::impact::{Bar, exit_velocities, impulse, phases};
-use crate::verification::scene::{Brick, Material, THICKNESS};
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::scene::{Brick, Material, THICKNESS};
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::contact::rule::ContactRule;
+use checkdam::simulation::Simulation;
+use checkdam::theory::elastic::bar_speed;
+use checkdam::theory::impact::{Bar, exit_velocities, impulse, phases};
 
 const SOFT: Material = Material::new(1e6, 0.0, 1000.0);
 const LENGTH: f64 = 1.0;

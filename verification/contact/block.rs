@@ -1,13 +1,13 @@
 //! A block on an elastic base: slips, sticks. The base is a body that is clamped from below.
 
 use super::scenes::{Part, several, usual};
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Kind, Tolerance};
-use crate::contact::rule::ContactRule;
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::sliding_block as theory;
-use crate::verification::scene::{Brick, Material, run_until};
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::scene::{Brick, Material, run_until};
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::contact::rule::ContactRule;
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::sliding_block as theory;
 use nalgebra::Vector2;
 
 const STONE: Material = Material::new(2e7, 0.3, 1500.0);
@@ -93,7 +93,7 @@ pub fn slide(s: &Setting, rule: ContactRule, fault: &Fault) -> Result<Slide, Run
     let time = sim.time() - began;
     let moved = centre(&sim) - start;
     let stocks = [0, 1].map(|k| sim.stock_of(|b| b == k));
-    let mass = STONE.density * 32.0 * H * H * crate::verification::scene::THICKNESS;
+    let mass = STONE.density * 32.0 * H * H * crate::scene::THICKNESS;
     let a = theory::acceleration_from_rest(GRAVITY, s.slope, s.friction);
     let scale = theory::distance(GRAVITY * libm::sin(s.slope), time);
     let normal = mass * GRAVITY * libm::cos(s.slope) * time;

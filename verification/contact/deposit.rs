@@ -1,15 +1,15 @@
 //! Sand that runs against an elastic wall and comes to rest: nothing may leak, no energy may come from nowhere.
 
 use super::scenes::{Part, several, usual};
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Kind};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
-use crate::contact::outline::Outline;
-use crate::contact::rule::ContactRule;
-use crate::gauge::penetration;
-use crate::simulation::{PicShare, Simulation};
-use crate::verification::scene::{Brick, Material};
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::scene::{Brick, Material};
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Kind};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
+use checkdam::contact::outline::Outline;
+use checkdam::contact::rule::ContactRule;
+use checkdam::gauge::penetration;
+use checkdam::simulation::{PicShare, Simulation};
 use nalgebra::Vector2;
 
 const H: f64 = 0.02;

@@ -14,7 +14,7 @@ mod scenes;
 
 use super::report::named_csv;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::contact::rule::GapRule;
+use checkdam::contact::rule::GapRule;
 use scenes::{GAPS, NORMALS, rule};
 
 /// The rung.
@@ -113,10 +113,10 @@ fn options(outcome: &mut Outcome) {
 #[cfg(test)]
 mod tests {
     use super::scenes::{Part, several, usual};
-    use crate::body::Particle;
-    use crate::simulation::Simulation;
-    use crate::verification::Fault;
-    use crate::verification::scene::{Brick, Material};
+    use crate::Fault;
+    use crate::scene::{Brick, Material};
+    use checkdam::body::Particle;
+    use checkdam::simulation::Simulation;
 
     /// A block that is thrown on a long bed, both in many bands, after eighty steps.
     fn thrown(threads: usize) -> (Vec<(usize, Particle)>, usize) {

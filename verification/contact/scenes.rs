@@ -1,11 +1,11 @@
 //! Scenes of several bricks, each a body of its own.
 
-use crate::body::Particle;
-use crate::boundary::Boundary;
-use crate::contact::rule::{ContactRule, GapRule, NormalRule};
-use crate::simulation::Scene;
-use crate::verification::Fault;
-use crate::verification::scene::{Brick, Material, scene};
+use crate::Fault;
+use crate::scene::{Brick, Material, scene};
+use checkdam::body::Particle;
+use checkdam::boundary::Boundary;
+use checkdam::contact::rule::{ContactRule, GapRule, NormalRule};
+use checkdam::simulation::Scene;
 
 /// A brick of a material with its points.
 #[derive(Debug, Clone)]

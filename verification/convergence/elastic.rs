@@ -1,12 +1,12 @@
 //! A bar that strikes a wall and a column that settles, on four grids with four numbers of points per cell.
 
-use crate::boundary::{Boundary, Friction};
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::bar;
-use crate::theory::elastic::{bar_speed, confined_speed};
-use crate::theory::self_weight::Column;
-use crate::verification::scene::{Brick, Material, THICKNESS, run_until, scene};
-use crate::verification::{Fault, RungFailure};
+use crate::scene::{Brick, Material, THICKNESS, run_until, scene};
+use crate::{Fault, RungFailure};
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::bar;
+use checkdam::theory::elastic::{bar_speed, confined_speed};
+use checkdam::theory::self_weight::Column;
 use nalgebra::Vector2;
 
 /// The bar: Poisson's ratio zero, 1 m long.

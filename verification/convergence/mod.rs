@@ -20,8 +20,8 @@ mod elastic;
 
 use super::report::number;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::theory::order::Study;
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::theory::order::Study;
 use elastic::{HEIGHT, LENGTH};
 use rayon::prelude::*;
 
@@ -319,10 +319,10 @@ fn judge_flume(quantity: &str, per_cell: usize, values: &[f64], outcome: &mut Ou
 
 /// Peak over 20 ms, static force, arrival, velocity of the front at 0.7 m.
 fn flume_run(per_cell: usize, h: f64) -> Result<Flowed, String> {
-    let mut case = crate::case::parse(CASE, "40deg.toml").map_err(|e| e.to_string())?.case;
+    let mut case = checkdam::case::parse(CASE, "40deg.toml").map_err(|e| e.to_string())?.case;
     case.grid.spacing_m = h;
     case.grid.particles_per_cell = (per_cell * per_cell) as u32;
-    let (_, _, summary) = crate::run::run_in_memory(&case, &mut |_| true).map_err(|e| e.to_string())?;
+    let (_, _, summary) = checkdam::run::run_in_memory(&case, &mut |_| true).map_err(|e| e.to_string())?;
     let barrier = summary.barrier.ok_or("no barrier")?;
     let deposit = summary.deposit.ok_or("no deposit")?;
     let front = summary.front.iter().find(|f| (f.x_m - 0.7).abs() < 1e-9).ok_or("the front does not reach 0.7 m")?;

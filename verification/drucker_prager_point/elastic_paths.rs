@@ -2,9 +2,9 @@
 
 use super::super::report::table_csv;
 use super::{Fault, Outcome, PHI, SAND};
-use crate::check::{Check, Kind, Tolerance};
-use crate::constitutive::{Cone, DruckerPrager, Increment, Law, LinearElastic, PointState, Stress};
-use crate::theory::{jaumann, order};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::constitutive::{Cone, DruckerPrager, Increment, Law, LinearElastic, PointState, Stress};
+use checkdam::theory::{jaumann, order};
 
 pub fn run(fault: &Fault, outcome: &mut Outcome) {
     let elastic = LinearElastic::new(SAND.young * fault.modulus, SAND.poisson);

@@ -3,8 +3,8 @@
 use super::super::report::named_csv;
 use super::super::scene::Lcg;
 use super::{Fault, Outcome, PHI, SAND, drive, law, strain};
-use crate::check::{Check, Kind, Tolerance};
-use crate::constitutive::{Cone, DruckerPrager, Increment, Law, PointState, Stress};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::constitutive::{Cone, DruckerPrager, Increment, Law, PointState, Stress};
 
 const CONES: [Cone; 4] = [Cone::TriaxialCompression, Cone::TriaxialExtension, Cone::PlaneStrain, Cone::AsPrinted];
 
@@ -135,7 +135,7 @@ fn random_paths(fault: &Fault, outcome: &mut Outcome) {
         Check::new(
             "random paths: share of plastic steps",
             f64::from(plastic_steps) / 40_000.0,
-            crate::check::Expected::Within(0.1, 1.0),
+            checkdam::check::Expected::Within(0.1, 1.0),
             "1",
         )
         .because("a guard: paths that stay elastic would prove nothing")
@@ -174,8 +174,8 @@ fn step_size(fault: &Fault, outcome: &mut Outcome) {
         outcome.check(
             Check::new(
                 "biaxial load at 0.3 % strain, shortly after yield: observed order in the step",
-                crate::theory::order::from_errors(pair[0], pair[1], 2.0),
-                crate::check::Expected::AtLeast(0.8),
+                checkdam::theory::order::from_errors(pair[0], pair[1], 2.0),
+                checkdam::check::Expected::AtLeast(0.8),
                 "1",
             )
             .because("the return map is backward Euler, first order; a fifth of margin for where the yield point falls in a step")

@@ -9,8 +9,8 @@ mod history;
 mod strength;
 
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::constitutive::{Cone, DruckerPrager, Increment, Law, LinearElastic, PointState};
-use crate::theory::elastic::Elastic;
+use checkdam::constitutive::{Cone, DruckerPrager, Increment, Law, LinearElastic, PointState};
+use checkdam::theory::elastic::Elastic;
 
 /// The rung.
 pub const RUNG: Rung = Rung {

@@ -2,9 +2,9 @@
 
 use super::super::report::named_csv;
 use super::{Case, Fault, Outcome, PHI, SAND, drive, law, law_at, strain};
-use crate::check::{Check, Kind, Tolerance};
-use crate::constitutive::{Cone, DruckerPrager, Increment, Law, PointState, Stress};
-use crate::theory::drucker_prager as theory;
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::constitutive::{Cone, DruckerPrager, Increment, Law, PointState, Stress};
+use checkdam::theory::drucker_prager as theory;
 
 const ITERATED: &str =
     "the path ends in the state of failure, approached exponentially; the stress is iterated to 1e-6 Pa";

@@ -2,12 +2,12 @@
 
 use super::super::scene::{Brick, Material, points_by_number, scene};
 use super::super::{Fault, Outcome};
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Kind, Tolerance};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
-use crate::simulation::{Scheme, Simulation};
-use crate::transfer::{VectorUnit, limit_vector_unit};
-use crate::verification::RungFailure;
+use crate::RungFailure;
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
+use checkdam::simulation::{Scheme, Simulation};
+use checkdam::transfer::{VectorUnit, limit_vector_unit};
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 

@@ -7,7 +7,7 @@ mod rotation;
 mod transfers;
 
 use super::{Fault, FaultKind, Outcome, Rung};
-use crate::verification::RungFailure;
+use crate::RungFailure;
 
 /// The rung.
 pub const RUNG: Rung = Rung {

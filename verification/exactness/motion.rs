@@ -3,12 +3,12 @@
 use super::super::scene::{Brick, Material, centre, points_by_number, run_until, scene};
 use super::super::{Fault, Outcome};
 use super::ROUND_OFF;
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Kind, Tolerance};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
-use crate::simulation::Simulation;
-use crate::theory::{order, sliding_block};
-use crate::verification::RungFailure;
+use crate::RungFailure;
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
+use checkdam::simulation::Simulation;
+use checkdam::theory::{order, sliding_block};
 use nalgebra::Vector2;
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
@@ -112,7 +112,7 @@ pub fn momentum(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure>
     scene.gravity = [-2.0, -9.81];
     scene.side_wall_friction = 0.2;
     scene.domain = [[-1.0, 0.21], [-1.0, 1.0]];
-    scene.numerics.pic = crate::simulation::PicShare::Fraction(1e-3);
+    scene.numerics.pic = checkdam::simulation::PicShare::Fraction(1e-3);
     let mut sim = Simulation::new(scene);
     sim.set_damping(2.0);
     run_until(&mut sim, 0.25)?;

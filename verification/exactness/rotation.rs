@@ -4,11 +4,11 @@ use super::super::report::table_csv;
 use super::super::scene::{Brick, Material, points_by_number, run_until, scene};
 use super::super::{Fault, Outcome};
 use super::ROUND_OFF;
-use crate::body::Particle;
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::simulation::Simulation;
-use crate::theory::{elastic, order};
-use crate::verification::RungFailure;
+use crate::RungFailure;
+use checkdam::body::Particle;
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::simulation::Simulation;
+use checkdam::theory::{elastic, order};
 
 const DISK: Material = Material::new(1e6, 0.3, 1000.0);
 const RADIUS: f64 = 0.4;

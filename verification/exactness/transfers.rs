@@ -3,14 +3,14 @@
 use super::super::scene::{Lcg, Material};
 use super::super::{Fault, Outcome};
 use super::ROUND_OFF;
-use crate::band::Band;
-use crate::body::{Body, Particle, Points};
-use crate::check::{Check, Kind};
-use crate::grid::{ActiveGrid, Lattice};
-use crate::layout::{SortRules, Sorter};
-use crate::shape::ShapeFunction;
-use crate::theory::jaumann::turned;
-use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use checkdam::band::Band;
+use checkdam::body::{Body, Particle, Points};
+use checkdam::check::{Check, Kind};
+use checkdam::grid::{ActiveGrid, Lattice};
+use checkdam::layout::{SortRules, Sorter};
+use checkdam::shape::ShapeFunction;
+use checkdam::theory::jaumann::turned;
+use checkdam::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 const H: f64 = 0.01;

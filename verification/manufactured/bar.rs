@@ -1,13 +1,13 @@
 //! A bar fixed at one end and free at the other, in its first mode (Bardenhagen 2002; parameters after Buzzi et al. 2008).
 
-use crate::boundary::{Boundary, Friction};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::simulation::Simulation;
-use crate::theory::elastic::bar_speed;
-use crate::theory::order;
-use crate::verification::report::table_csv;
-use crate::verification::scene::{Brick, Material, centre, scene};
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::report::table_csv;
+use crate::scene::{Brick, Material, centre, scene};
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::simulation::Simulation;
+use checkdam::theory::elastic::bar_speed;
+use checkdam::theory::order;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 

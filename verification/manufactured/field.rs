@@ -1,12 +1,12 @@
 //! The manufactured solution on one grid.
 
-use crate::boundary::{Boundary, Friction, Opening};
-use crate::shape::ShapeFunction;
-use crate::simulation::{AccelerationField, Simulation};
-use crate::theory::elastic::{Elastic, confined_speed};
-use crate::theory::manufactured::Motion;
-use crate::verification::scene::{Brick, Material, points_by_number, scene};
-use crate::verification::{Fault, RungFailure};
+use crate::scene::{Brick, Material, points_by_number, scene};
+use crate::{Fault, RungFailure};
+use checkdam::boundary::{Boundary, Friction, Opening};
+use checkdam::shape::ShapeFunction;
+use checkdam::simulation::{AccelerationField, Simulation};
+use checkdam::theory::elastic::{Elastic, confined_speed};
+use checkdam::theory::manufactured::Motion;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 use std::sync::Arc;

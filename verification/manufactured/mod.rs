@@ -22,9 +22,9 @@ mod vortex;
 
 use super::report::named_csv;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::shape::ShapeFunction;
-use crate::theory::order;
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::shape::ShapeFunction;
+use checkdam::theory::order;
 use field::{Errors, Setting, State, elasticity, fly};
 use std::f64::consts::PI;
 

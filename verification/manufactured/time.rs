@@ -2,11 +2,11 @@
 
 use super::field::{Setting, State, distance, fly};
 use super::{LARGE, MEDIUM, SHAPE_NAMES, SHAPES, SMALL};
-use crate::check::{Check, Expected, Kind};
-use crate::shape::ShapeFunction;
-use crate::theory::order;
-use crate::verification::report::named_csv;
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::report::named_csv;
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::check::{Check, Expected, Kind};
+use checkdam::shape::ShapeFunction;
+use checkdam::theory::order;
 
 const CELLS: usize = 20;
 const COURANTS: [f64; 4] = [0.4, 0.2, 0.1, 0.05];

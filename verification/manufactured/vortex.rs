@@ -6,15 +6,15 @@
 //! step, as for the square, as long as domains that do not deform with the shear do not overlap much.
 
 use super::{SHAPE_NAMES, SHAPES};
-use crate::check::{Check, Expected, Kind};
-use crate::shape::ShapeFunction;
-use crate::simulation::{AccelerationField, Simulation};
-use crate::theory::elastic::confined_speed;
-use crate::theory::order;
-use crate::theory::vortex::Vortex;
-use crate::verification::report::named_csv;
-use crate::verification::scene::{Brick, Material, points_by_number, scene};
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::report::named_csv;
+use crate::scene::{Brick, Material, points_by_number, scene};
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::check::{Check, Expected, Kind};
+use checkdam::shape::ShapeFunction;
+use checkdam::simulation::{AccelerationField, Simulation};
+use checkdam::theory::elastic::confined_speed;
+use checkdam::theory::order;
+use checkdam::theory::vortex::Vortex;
 use std::sync::Arc;
 
 const MATERIAL: Material = Material::new(1e6, 0.3, 1500.0);

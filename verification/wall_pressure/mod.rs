@@ -30,10 +30,10 @@ mod stroke;
 use super::report::number;
 use super::scene::Material;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
-use crate::boundary::Friction;
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::constitutive::Cone;
-use crate::theory::{drucker_prager, earth_pressure};
+use checkdam::boundary::Friction;
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::constitutive::Cone;
+use checkdam::theory::{drucker_prager, earth_pressure};
 use rayon::prelude::*;
 use stroke::{GRAVITY, HEIGHT, Moment, PHI, Setup, Stroke};
 

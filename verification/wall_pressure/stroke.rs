@@ -1,13 +1,13 @@
 //! A wall that moves: what it feels, and how the fill gives way.
 
-use crate::body::Particle;
-use crate::boundary::{Boundary, Friction};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::drucker_prager;
-use crate::theory::elastic::confined_speed;
-use crate::verification::scene::{Brick, Material, THICKNESS, points_by_number, scene};
-use crate::verification::{Fault, RungFailure};
+use crate::scene::{Brick, Material, THICKNESS, points_by_number, scene};
+use crate::{Fault, RungFailure};
+use checkdam::body::Particle;
+use checkdam::boundary::{Boundary, Friction};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::drucker_prager;
+use checkdam::theory::elastic::confined_speed;
 use nalgebra::Vector2;
 
 /// Friction angle of the fill, rad.

@@ -3,7 +3,7 @@
 use crate::contact::node::{Side, project, solve, solve_held};
 use crate::contact::pair::{Exchange, State, Touch};
 use crate::contact::{Vector, dot, minus};
-use crate::verification::scene::Lcg;
+use crate::scaffold::Lcg;
 
 fn side(mass: f64, old: Vector, velocity: Vector) -> Side {
     Side { mass, old, velocity, fixed: false, held: false }

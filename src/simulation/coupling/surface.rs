@@ -329,7 +329,7 @@ fn lattice_angle(points: &[(u32, Vector)], spacing: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verification::scene::Brick;
+    use crate::scaffold::Brick;
 
     #[test]
     fn the_angle_of_a_lattice_is_that_of_its_rows_or_columns() {

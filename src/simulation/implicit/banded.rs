@@ -168,7 +168,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verification::scene::Lcg;
+    use crate::scaffold::Lcg;
 
     #[test]
     fn a_solution_gives_back_the_right_side() {

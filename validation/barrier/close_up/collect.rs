@@ -1,11 +1,11 @@
 //! Keeps what the figures need of a run.
 
 use super::slip;
-use crate::gauge::StructureSample;
-use crate::gauge::flow::FieldCell;
-use crate::output::OutputError;
-use crate::run::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
-use crate::simulation::Simulation;
+use checkdam::gauge::StructureSample;
+use checkdam::gauge::flow::FieldCell;
+use checkdam::output::OutputError;
+use checkdam::run::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
+use checkdam::simulation::Simulation;
 
 /// Makes the observer of the slip surface at the release.
 type Start = dyn FnOnce(&Simulation) -> slip::Observer + Send;

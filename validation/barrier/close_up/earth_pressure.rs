@@ -1,10 +1,10 @@
 //! The pressure of the deposit on the barrier beside earth pressure theories (Fig. 11).
 
 use super::super::records::RIGIDITY;
-use crate::output::Table;
-use crate::theory::earth_pressure::{Wall, jaky, rankine_active, rankine_passive};
-use crate::validation::Failure;
-use crate::verification::report::number;
+use crate::Failure;
+use checkdam::output::Table;
+use checkdam::theory::earth_pressure::{Wall, jaky, rankine_active, rankine_passive};
+use checkdam_verification::report::number;
 
 /// The pressure at rest, averaged over five cells as single nodes alternate, with the lines of the earth pressure theories beside it:
 /// K rho g times the depth below the highest material at the wall.

@@ -2,10 +2,10 @@
 
 use super::releases::{FIELDS, RELEASES, Release};
 use super::{derived_folder, record_folder};
-use crate::plot::curves::{self, Curve, Curves, Panel, panel};
-use crate::plot::flow_snapshots::{self, Shown};
-use crate::plot::{PlotError, energy_shares};
-use crate::validation::barrier::INCLINATION_DEG;
+use crate::barrier::INCLINATION_DEG;
+use checkdam::plot::curves::{self, Curve, Curves, Panel, panel};
+use checkdam::plot::flow_snapshots::{self, Shown};
+use checkdam::plot::{PlotError, energy_shares};
 use std::path::Path;
 
 const fn curve(column: &'static str, label: &'static str, exact: bool) -> Curve<'static> {

@@ -3,8 +3,8 @@
 use super::record::Seen;
 use super::releases::{INSTANTS, WAVE_TIME};
 use super::slip;
-use crate::check::significant;
-use crate::gauge::structure::ProfilePoint;
+use checkdam::check::significant;
+use checkdam::gauge::structure::ProfilePoint;
 use std::fmt::Write;
 
 /// Length of the means at the end, s.

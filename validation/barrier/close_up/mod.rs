@@ -19,10 +19,10 @@ pub use numbers::{Numbers, numbers};
 pub use releases::BARRIERS;
 
 use super::balances::{self, largest};
-use crate::check::{Check, Kind};
-use crate::output::{OutputError, Table, write_text};
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
+use crate::{Context, Failure, Validation};
+use checkdam::check::{Check, Kind};
+use checkdam::output::{OutputError, Table, write_text};
+use checkdam_verification::Outcome;
 use releases::{RELEASES, Release, rows_of, table};
 use std::path::{Path, PathBuf};
 

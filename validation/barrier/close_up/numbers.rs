@@ -3,8 +3,8 @@
 use super::releases::{Arrival, BARRIERS, RELEASES, Release, arrival, table};
 use super::slip::shares::{Shares, shares};
 use super::{tables, wave};
-use crate::output::Table;
-use crate::validation::{Context, Failure};
+use crate::{Context, Failure};
+use checkdam::output::Table;
 
 /// What is read from the tables of the four barriers under one release.
 pub struct Numbers {

@@ -3,11 +3,11 @@
 use super::collect::Collector;
 use super::releases::{Arrival, BARRIERS, FIELDS, Look, RELEASES, look};
 use super::{lines, slip};
-use crate::boundary::Boundary;
-use crate::gauge::structure::ProfilePoint;
-use crate::run::{Experiment, files, scene};
-use crate::validation::watch::{WordsFn, side_by_side, watched};
-use crate::validation::{Context, Failure};
+use crate::watch::{WordsFn, side_by_side, watched};
+use crate::{Context, Failure};
+use checkdam::boundary::Boundary;
+use checkdam::gauge::structure::ProfilePoint;
+use checkdam::run::{Experiment, files, scene};
 
 /// Tables by file.
 pub(super) type Tables = Vec<(String, String)>;

@@ -2,9 +2,9 @@
 
 use super::super::records::{CALIBRATED, LITERAL, RIGIDITY};
 use super::RECORD_FOLDER;
-use crate::case::Case;
-use crate::output::Table;
-use crate::validation::Failure;
+use crate::Failure;
+use checkdam::case::Case;
+use checkdam::output::Table;
 
 /// Name and row of the study of the barriers shown: their normalised stiffness as it stands there.
 pub const BARRIERS: [(&str, &str); 4] =

@@ -1,10 +1,10 @@
 //! The pressure that runs up the flow from the barrier (Fig. 7), and how fast.
 
 use super::releases::{BARRIERS, Release, WAVE_STEP, arrival, rows_of};
-use crate::output::Table;
-use crate::validation::barrier::PUBLISHED;
-use crate::validation::{Failure, data};
-use crate::verification::report::number;
+use crate::barrier::PUBLISHED;
+use crate::{Failure, data};
+use checkdam::output::Table;
+use checkdam_verification::report::number;
 
 /// Correlation below which distances and times do not make a wave.
 const STRAIGHT: f64 = 0.85;

@@ -1,9 +1,9 @@
 //! What the records say of each rigidity under each release.
 
-use crate::validation::barrier::records::{LITERAL, RIGIDITY, SCATTER, SCATTER_CALIBRATED, on_rigid_wall, peaks};
-use crate::validation::flume::runs::Run;
-use crate::validation::flume::scatter::Scatter;
-use crate::validation::{Context, Failure};
+use crate::barrier::records::{LITERAL, RIGIDITY, SCATTER, SCATTER_CALIBRATED, on_rigid_wall, peaks};
+use crate::flume::runs::Run;
+use crate::flume::scatter::Scatter;
+use crate::{Context, Failure};
 
 /// One rigidity under one release.
 #[derive(Debug, Clone)]

@@ -1,9 +1,9 @@
 //! What must hold in all runs of the study.
 
 use super::{Analysis, Point};
-use crate::check::{Check, Expected, Kind};
-use crate::validation::barrier::balances::Balances;
-use crate::validation::flume::runs::Run;
+use crate::barrier::balances::Balances;
+use crate::flume::runs::Run;
+use checkdam::check::{Check, Expected, Kind};
 
 /// Spearman's rank correlation of values with their places; without ties.
 pub fn rank_correlation(values: &[f64]) -> f64 {

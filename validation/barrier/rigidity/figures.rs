@@ -1,8 +1,8 @@
 //! Figures of the rigidities.
 
-use crate::plot::PlotError;
-use crate::plot::curves::{self, Curve, Curves, Panel, panel};
-use crate::validation::barrier::records::{CALIBRATED, LITERAL};
+use crate::barrier::records::{CALIBRATED, LITERAL};
+use checkdam::plot::PlotError;
+use checkdam::plot::curves::{self, Curve, Curves, Panel, panel};
 use std::path::Path;
 
 const RELEASES: &[Panel<'static>] =

@@ -12,8 +12,8 @@ pub use threshold::{crossing, negligible, plateau};
 
 use super::balances::Balances;
 use super::records::{RIGIDITY, SCATTER_CALIBRATED};
-use crate::validation::{Context, Failure, Validation};
-use crate::verification::Outcome;
+use crate::{Context, Failure, Validation};
+use checkdam_verification::Outcome;
 
 /// The analysis of the recorded runs.
 pub const VALIDATION: Validation = Validation {

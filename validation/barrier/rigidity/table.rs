@@ -1,10 +1,10 @@
 //! Every rigidity in numbers.
 
 use super::{Analysis, front};
-use crate::validation::Failure;
-use crate::validation::barrier::records::{RIGIDITY, height, impact_coefficient, impedance, young_of_one};
-use crate::validation::barrier::{PUBLISHED, data};
-use crate::verification::report::number;
+use crate::Failure;
+use crate::barrier::records::{RIGIDITY, height, impact_coefficient, impedance, young_of_one};
+use crate::barrier::{PUBLISHED, data};
+use checkdam_verification::report::number;
 
 pub(super) fn table(analysis: &Analysis) -> Result<String, Failure> {
     let case = RIGIDITY.first_case()?;

@@ -1,9 +1,9 @@
 //! Where "rigid" ends: stiffnesses at which a curve crosses a level or joins that of the stiffest barrier.
 
 use super::{Analysis, Point, front};
-use crate::validation::Failure;
-use crate::validation::barrier::records::{LITERAL, RIGIDITY, height, impact_coefficient};
-use crate::verification::report::number;
+use crate::Failure;
+use crate::barrier::records::{LITERAL, RIGIDITY, height, impact_coefficient};
+use checkdam_verification::report::number;
 
 /// Deflection over the height that the paper calls negligible.
 const NEGLIGIBLE: f64 = 0.03;

@@ -3,8 +3,8 @@
 use super::super::compare;
 use super::text::{published, three};
 use super::{FIGURES, Figure};
-use crate::output::{OutputError, Table};
-use crate::validation::data;
+use crate::data;
+use checkdam::output::{OutputError, Table};
 
 /// Speeds in the camera's window.
 pub fn speeds(window: &Table) -> Result<String, OutputError> {

@@ -4,9 +4,9 @@ use super::super::baseline::{CASE_CELLS, CELLS};
 use super::super::judge::{Basis, Reading};
 use super::super::{Flume, compare};
 use super::{FIGURES, Line};
-use crate::validation::Failure;
-use crate::validation::data::{self, Datum};
-use crate::verification::report::{number, quoted};
+use crate::Failure;
+use crate::data::{self, Datum};
+use checkdam_verification::report::{number, quoted};
 
 /// Table of all rows of all pages.
 pub const ROWS: &str = "flume_pages";

@@ -4,8 +4,8 @@ use super::super::CASES;
 use super::extras::{closed_forms, not_compared, speeds};
 use super::table::{ROWS, WINDOW};
 use super::{FIGURES, Figure};
-use crate::check::significant;
-use crate::output::{OutputError, Table, write_text};
+use checkdam::check::significant;
+use checkdam::output::{OutputError, Table, write_text};
 use std::path::Path;
 
 /// First words of the verdicts.

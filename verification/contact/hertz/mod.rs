@@ -20,11 +20,11 @@
 mod scene;
 
 use super::scenes::usual;
-use crate::check::{Check, Expected, Kind, Tolerance};
-use crate::contact::rule::ContactRule;
-use crate::theory::hertz::{self, Wavy, contact_modulus};
-use crate::verification::report::{named_csv, table_csv};
-use crate::verification::{Fault, Outcome, RungFailure};
+use crate::report::{named_csv, table_csv};
+use crate::{Fault, Outcome, RungFailure};
+use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::contact::rule::ContactRule;
+use checkdam::theory::hertz::{self, Wavy, contact_modulus};
 use scene::{BODY, Rest, WAVELENGTH, exact, press, read};
 use std::f64::consts::PI;
 

@@ -1,14 +1,14 @@
 //! The scene: a wavy body, a flat one that rises against it, and what is measured when both rest.
 
-use crate::body::Particle;
-use crate::boundary::{Boundary, Friction, Opening};
-use crate::contact::rule::ContactRule;
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::elastic::confined_speed;
-use crate::theory::hertz::{Wavy, contact_modulus};
-use crate::verification::contact::scenes::{Part, several};
-use crate::verification::scene::{Brick, Material, THICKNESS, run_until};
-use crate::verification::{Fault, RungFailure};
+use crate::contact::scenes::{Part, several};
+use crate::scene::{Brick, Material, THICKNESS, run_until};
+use crate::{Fault, RungFailure};
+use checkdam::body::Particle;
+use checkdam::boundary::{Boundary, Friction, Opening};
+use checkdam::contact::rule::ContactRule;
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::elastic::confined_speed;
+use checkdam::theory::hertz::{Wavy, contact_modulus};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 

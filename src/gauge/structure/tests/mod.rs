@@ -3,15 +3,14 @@ mod still;
 use super::*;
 use crate::boundary::Friction;
 use crate::contact::rule::ContactRule;
+use crate::scaffold::{Brick, THICKNESS, elastic, run_until, scene};
 use crate::simulation::PicShare;
-use crate::verification::Fault;
-use crate::verification::scene::{Brick, Material, THICKNESS, run_until, scene};
 
 const H: f64 = 0.02;
 
 /// A wall of 0.1 m by 0.3 m above its clamp, and a block that runs against it.
 fn wall_and_block(young: f64, weightless: bool) -> (Simulation, StructureGauge) {
-    let (soft, stiff) = (Material::new(1e6, 0.3, 1500.0), Material::new(young, 0.2, 2400.0));
+    let (soft, stiff) = (elastic(1e6, 0.3), elastic(young, 0.2));
     let wall = Brick::new([0.4, -2.0 * H], [5, 17], H);
     let block = Brick::new([0.2, 0.0], [6, 6], H);
     // The gauge counts along the height first.
@@ -22,11 +21,11 @@ fn wall_and_block(young: f64, weightless: bool) -> (Simulation, StructureGauge) 
         |name: &str, x: [f64; 2], friction| Boundary::plane(name, Vector2::from(x), Vector2::new(0.0, 1.0), friction);
     let clamp = plane("clamp", [0.4, 0.0], Friction::Bonded).only_for(&[0]);
     let bed = plane("bed", [0.0, 0.0], Friction::Coulomb(0.3)).only_for(&[1]);
-    let mut scene = scene(&wall, stiff.law(&Fault::NONE), stiff.density, points, vec![clamp, bed]);
+    let mut scene = scene(&wall, stiff, 2400.0, points, vec![clamp, bed]);
     scene.bodies[0].0.weightless = weightless;
     let mut moving = block.points();
     moving.iter_mut().for_each(|p| p.v = [2.0, 0.0]);
-    scene.bodies.push((block.body(soft.law(&Fault::NONE), soft.density), moving));
+    scene.bodies.push((block.body(soft, 1500.0), moving));
     scene.contacts = vec![ContactRule::with_structure(0, 1, 0.4)];
     scene.gravity = [0.5, -9.81];
     scene.numerics.pic = PicShare::Fraction(5e-4);

@@ -5,11 +5,11 @@ use crate::body::Particle;
 use crate::boundary::nodes::Tally;
 use crate::constitutive::{AnyLaw, Cone, DruckerPrager, Law, LinearElastic, NeoHookean};
 use crate::momentum::{BodyForces, Drag};
+use crate::scaffold::{Brick, Lcg, scene};
 use crate::shape::ShapeFunction;
 use crate::simulation::Simulation;
 use crate::simulation::field::VelocityField;
 use crate::simulation::implicit::{ImplicitBody, Point, THETA};
-use crate::verification::scene::{Brick, Lcg, scene};
 
 const SHAPES: [ShapeFunction; 3] = [ShapeFunction::Linear, ShapeFunction::Ugimp, ShapeFunction::Bspline];
 /// Round-off of sums and of a linear solve, as a share of the largest value.

@@ -4,29 +4,28 @@ mod reference;
 
 use crate::boundary::{Boundary, Friction};
 use crate::contact::rule::ContactRule;
+use crate::scaffold::{Brick, elastic, scene};
 use crate::simulation::implicit::THETA;
 use crate::simulation::{PicShare, Scene, Simulation};
-use crate::verification::Fault;
-use crate::verification::scene::{Brick, Material, scene};
 use nalgebra::Vector2;
 
 const H: f64 = 0.02;
 
 /// A wall of 0.1 m by 0.3 m above its clamp, and a soft block that runs against it.
 fn wall_and_block(young: f64, implicit: bool, speed: f64, longest: f64, change: impl Fn(&mut Scene)) -> Simulation {
-    let (soft, stiff) = (Material::new(1e6, 0.3, 1500.0), Material::new(young, 0.2, 2400.0));
+    let (soft, stiff) = (elastic(1e6, 0.3), elastic(young, 0.2));
     let wall = Brick::new([0.4, -2.0 * H], [5, 17], H);
     let block = Brick::new([0.27, 0.0], [6, 6], H);
     let plane =
         |name: &str, x: [f64; 2], friction| Boundary::plane(name, Vector2::from(x), Vector2::new(0.0, 1.0), friction);
     let clamp = plane("clamp", [0.4, 0.0], Friction::Bonded).only_for(&[0]);
     let bed = plane("bed", [0.0, 0.0], Friction::Coulomb(0.3)).only_for(&[1]);
-    let mut scene = scene(&wall, stiff.law(&Fault::NONE), stiff.density, wall.points(), vec![clamp, bed]);
+    let mut scene = scene(&wall, stiff, 2400.0, wall.points(), vec![clamp, bed]);
     scene.bodies[0].0.weightless = true;
     scene.bodies[0].0.implicit = implicit;
     let mut moving = block.points();
     moving.iter_mut().for_each(|p| p.v = [speed, 0.0]);
-    scene.bodies.push((block.body(soft.law(&Fault::NONE), soft.density), moving));
+    scene.bodies.push((block.body(soft, 1500.0), moving));
     scene.contacts = vec![ContactRule::with_structure(0, 1, 0.4)];
     scene.gravity = [0.5, -9.81];
     scene.numerics.pic = PicShare::Rate(2.0);

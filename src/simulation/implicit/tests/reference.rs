@@ -3,10 +3,10 @@
 use crate::body::{Body, Particle};
 use crate::boundary::{Boundary, Friction};
 use crate::constitutive::{AnyLaw, Increment};
+use crate::scaffold::{Brick, Lcg, scene};
 use crate::shape::ShapeFunction;
 use crate::simulation::Simulation;
 use crate::simulation::implicit::ImplicitBody;
-use crate::verification::scene::{Brick, Lcg, scene};
 use nalgebra::Vector2;
 
 pub const H: f64 = 0.1;

@@ -2,10 +2,10 @@
 
 use super::regions::{Cells, Region};
 use super::{INTERVAL, ROW, THRESHOLDS, work};
-use crate::constitutive::PointState;
-use crate::ledger::{EnergyBalance, Stock};
-use crate::simulation::Simulation;
-use crate::validation::barrier::close_up::releases::Arrival;
+use crate::barrier::close_up::releases::Arrival;
+use checkdam::constitutive::PointState;
+use checkdam::ledger::{EnergyBalance, Stock};
+use checkdam::simulation::Simulation;
 
 /// The ledger and the plastic work by region, from the release to a time.
 #[derive(Debug, Clone, PartialEq)]

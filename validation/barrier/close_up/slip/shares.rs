@@ -1,10 +1,10 @@
 //! Shares of the dissipation by place, from the record.
 
 use super::THRESHOLDS;
-use crate::check::{Check, Kind, significant};
-use crate::output::Table;
-use crate::validation::Failure;
-use crate::validation::barrier::close_up::releases::{BARRIERS, Release, arrival, rows_of};
+use crate::Failure;
+use crate::barrier::close_up::releases::{BARRIERS, Release, arrival, rows_of};
+use checkdam::check::{Check, Kind, significant};
+use checkdam::output::Table;
 
 /// Columns of the record of the slip surface.
 pub(in super::super) const COLUMNS: &str = "barrier,time_s,deposit_j,slip_deposit_j,slip_flow_j,flow_j,plastic_j,friction_base_j,\

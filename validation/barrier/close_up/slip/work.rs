@@ -1,6 +1,6 @@
 //! Plastic work of single points.
 
-use crate::constitutive::{PointState, Stress};
+use checkdam::constitutive::{PointState, Stress};
 
 /// Plastic work density of a step from one state to the next, J per m3 of the current volume; for a cone without dilatancy.
 ///
@@ -25,7 +25,7 @@ fn deviators(a: &Stress, b: &Stress) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constitutive::{Cone, DruckerPrager, Increment, Law, LinearElastic};
+    use checkdam::constitutive::{Cone, DruckerPrager, Increment, Law, LinearElastic};
 
     /// Work less stored energy and our own plastic work over a path of strains, both summed, J/m3.
     fn path(spin: f64) -> [f64; 2] {

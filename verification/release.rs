@@ -3,14 +3,14 @@
 //! x runs along the bed from the back wall, y perpendicular to it. Lengths are those of the source; the run-out counts from the
 //! gate. The column is as high everywhere, perpendicular to the bed, before it is released.
 
-use crate::boundary::{Boundary, Friction, Opening};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager};
-use crate::gauge::flow::FRONT_SHARE;
-use crate::run::records::MomentumRow;
-use crate::simulation::{PicShare, Simulation};
-use crate::theory::elastic::confined_speed;
-use crate::verification::scene::{Brick, Material, THICKNESS, scene};
-use crate::verification::{Fault, RungFailure};
+use crate::scene::{Brick, Material, THICKNESS, scene};
+use crate::{Fault, RungFailure};
+use checkdam::boundary::{Boundary, Friction, Opening};
+use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
+use checkdam::gauge::flow::FRONT_SHARE;
+use checkdam::run::records::MomentumRow;
+use checkdam::simulation::{PicShare, Simulation};
+use checkdam::theory::elastic::confined_speed;
 use nalgebra::Vector2;
 
 /// Acceleration of gravity, m/s2.

@@ -20,6 +20,7 @@ pub mod fault;
 pub mod figures;
 pub mod manufactured;
 pub mod neo_hookean;
+pub mod release;
 pub mod report;
 pub mod scene;
 pub mod self_weight;
@@ -28,8 +29,8 @@ pub mod wall_pressure;
 
 pub use fault::{Fault, FaultKind};
 
-use crate::check::{Check, Verdict};
-use crate::simulation::StepFailure;
+use checkdam::check::{Check, Verdict};
+use checkdam::simulation::StepFailure;
 use figures::FIGURES;
 use std::path::Path;
 

@@ -15,13 +15,13 @@ pub mod flume;
 pub mod record;
 pub mod watch;
 
-use crate::output::OutputError;
-use crate::plot::PlotError;
-use crate::run::RunError;
-use crate::simulation::StepFailure;
-use crate::study::StudyError;
-use crate::verification::report::files;
-use crate::verification::{Fault, FaultKind, Outcome, RungFailure};
+use checkdam::output::OutputError;
+use checkdam::plot::PlotError;
+use checkdam::run::RunError;
+use checkdam::simulation::StepFailure;
+use checkdam::study::StudyError;
+use checkdam_verification::report::files;
+use checkdam_verification::{Fault, FaultKind, Outcome, RungFailure};
 use std::path::Path;
 
 /// One validation.
@@ -145,7 +145,7 @@ pub fn write(validation: &Validation, outcome: &Outcome, folder: &Path) -> Resul
     let mut written = Vec::new();
     for (stem, text) in files(validation.name, outcome) {
         written.push(format!("{stem}.csv"));
-        crate::output::write_text(folder.join(format!("{stem}.csv")), &text)?;
+        checkdam::output::write_text(folder.join(format!("{stem}.csv")), &text)?;
     }
     written.extend((validation.draw)(folder)?);
     Ok(written)
