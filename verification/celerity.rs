@@ -8,20 +8,61 @@
 use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, THICKNESS, points_by_number, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::boundary::{Boundary, Friction};
 use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::plot::curves::Curves;
 use checkdam::simulation::Simulation;
 use checkdam::theory::{bar, dispersion, elastic, order};
 use nalgebra::Vector2;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "celerity",
+    name: of_module(module_path!()),
     title: "Speed of a pulse in a free and a confined bar, three grids; a bar that strikes a rigid wall",
+    goal: "A pulse runs at sqrt(E/rho) in a free bar and sqrt(M/rho) in a confined one; a bar pushes a wall by rho c v",
+    source: "d'Alembert's wave equation; Saint-Venant's impact of a bar; dispersion of the scheme",
+    sketch: r"
+   pulse -->   1     2     3     4   stations
+   +---/\------|-----|-----|-----|---------+
+   |__/  \__________________________________|  free, or between
+   +-----------------------------------------+ smooth walls
+   bar --> v |wall:  rho c v A  for 2 L/c
+",
     run,
     covers: &[(FaultKind::Modulus, 1.03), (FaultKind::Density, 1.03), (FaultKind::ContactForce, 1.03)],
     under_fault: "all",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "celerity_lag",
+        "celerity_lag_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells along the bar",
+            y_title: "lag of a pulse behind the wave speed",
+            curves: &[measured("lag", ""), exact("lag_exact", "dispersion of the scheme")],
+            split: &[("bar", "")],
+            orders: &[2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "celerity_impact",
+        "celerity_impact_plot",
+        Curves {
+            x: "time_s",
+            x_title: "time after contact (s)",
+            y_title: "force on the wall (N)",
+            curves: &[measured("force_n", "bar strikes wall"), exact("force_exact_n", "rho c v A for 2L/c")],
+            ..Curves::LINEAR
+        },
+    ),
+];
 
 const FREE: Material = Material::new(1e6, 0.0, 1500.0);
 const CONFINED: Material = Material::new(1e6, 0.3, 1500.0);

@@ -20,9 +20,12 @@
 use super::report::table_csv;
 use super::scene::{Material, THICKNESS};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use crate::release::{Column, GRAVITY, depth_between, fronts};
 use checkdam::boundary::{Friction, Opening};
 use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::plot::curves::Curves;
 use checkdam::run::records::MomentumRow;
 use checkdam::simulation::PicShare;
 use checkdam::theory::collapse as law;
@@ -30,12 +33,57 @@ use rayon::prelude::*;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "collapse",
+    name: of_module(module_path!()),
     title: "Columns of five aspect ratios collapse: run-out and height against two laboratories, ledgers",
+    goal: "Run-out and height of columns that collapse, five aspect ratios, against two laboratories",
+    source: "Lube et al. 2005; Lajeunesse et al. 2005; Balmforth and Kerswell 2005",
+    sketch: r"
+   |o o| gate vanishes
+   |o o|                        .___
+   |o o| h0 = a r0        ->    |   `---.____
+   |o o|                        |            `---..
+   -r0---------------------   -----------------------  rough base
+",
     run,
     covers: &[(FaultKind::Gravity, 1.03), (FaultKind::Density, 1.03), (FaultKind::ContactForce, 1.03)],
     under_fault: "the column with a = 0.5",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "collapse_laws",
+        "collapse_laws_plot",
+        Curves {
+            x: "aspect_ratio",
+            x_title: "height over half width of the column",
+            y_title: "run-out over half width",
+            curves: &[
+                measured("run_out_by_mass", "by mass"),
+                measured("run_out_by_depth", "by depth"),
+                exact("run_out_lube_2005", "Lube 2005"),
+                exact("run_out_lajeunesse_2005", "Lajeunesse 2005"),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "collapse_laws",
+        "collapse_height_plot",
+        Curves {
+            x: "aspect_ratio",
+            x_title: "height over half width of the column",
+            y_title: "final height over half width",
+            curves: &[
+                measured("height", "at the wall"),
+                exact("height_lube_2005", "Lube 2005"),
+                exact("height_lajeunesse_2005", "Lajeunesse 2005"),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+];
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 const PHI: f64 = 31.0 * std::f64::consts::PI / 180.0;

@@ -7,9 +7,12 @@
 use super::report::named_csv;
 use super::scene::{Brick, Material, THICKNESS, points_by_number, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::boundary::{Boundary, Friction};
 use checkdam::check::{Check, Kind, Tolerance};
 use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
+use checkdam::plot::curves::Curves;
 use checkdam::simulation::{PicShare, Simulation};
 use checkdam::theory::elastic::confined_speed;
 use checkdam::theory::{drucker_prager, earth_pressure};
@@ -17,8 +20,17 @@ use nalgebra::Vector2;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "earth_pressure",
+    name: of_module(module_path!()),
     title: "Sand at rest between smooth walls: coefficient at rest by cone, force on the wall, its point of action",
+    goal: "Earth pressure at rest, the force on a wall and where it acts, for three cones",
+    source: "nu/(1 - nu), or the cone in confined compression; H/3",
+    sketch: r"
+   smooth |o o o o| smooth     | g, raised slowly
+          |o o o o|<-- K0 rho g z
+     H    |o o o o|<---
+          |o o o o|<----  acts at H/3
+   -------+-------+-------
+",
     run,
     covers: &[
         (FaultKind::Friction, 1.05),
@@ -27,7 +39,22 @@ pub const RUNG: Rung = Rung {
         (FaultKind::ContactForce, 1.03),
     ],
     under_fault: "all",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[curves(
+    "earth_pressure_profile",
+    "earth_pressure_profile_plot",
+    Curves {
+        x: "depth_m",
+        x_title: "depth (m)",
+        y_title: "lateral stress (Pa)",
+        curves: &[measured("lateral_pa", ""), exact("lateral_exact_pa", "closed form")],
+        split: &[("cone", "")],
+        ..Curves::LINEAR
+    },
+)];
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 const PHI: f64 = 31.0 * std::f64::consts::PI / 180.0;

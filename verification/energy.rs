@@ -6,19 +6,59 @@
 use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::check::{Check, Kind, Tolerance};
 use checkdam::ledger::EnergyBalance;
+use checkdam::plot::curves::Curves;
 use checkdam::simulation::{PicShare, Scheme, Simulation};
 use checkdam::theory::{bar, elastic, order, pic};
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "energy",
+    name: of_module(module_path!()),
     title: "A vibrating bar keeps its energy without PIC and loses it at the predicted rate with PIC; the ledger closes",
+    goal: "A bar keeps its energy without PIC, loses it with PIC at the predicted rate, and the ledger closes",
+    source: "symplectic Euler; the share that PIC takes of a wave, theory::pic",
+    sketch: r"
+   +-----------------------------+
+   | <- o o o o o | o o o o o -> |   first mode, free ends
+   +-----------------------------+
+   E(t) = E(0)                  alpha_PIC = 0
+   E(t) = E(0) exp(-rate t)     alpha_PIC > 0
+",
     run,
     covers: &[(FaultKind::Density, 1.03), (FaultKind::Modulus, 1.03)],
     under_fault: "all",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "energy_drift",
+        "energy_drift_plot",
+        Curves {
+            x: "cfl",
+            x_title: "c dt / h",
+            y_title: "energy to and fro within a period, relative",
+            curves: &[measured("energy_to_and_fro", ""), exact("energy_to_and_fro_exact", "w dt / 2")],
+            split: &[("scheme", ""), ("cells", "cells ")],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "energy_pic_decay",
+        "energy_pic_decay_plot",
+        Curves {
+            x: "kh",
+            x_title: "wave number times cell size",
+            y_title: "rate of decay (1/s)",
+            curves: &[measured("rate_1_s", "standing wave"), exact("rate_exact_1_s", "a (1 - T²)/dt")],
+            ..Curves::LINEAR
+        },
+    ),
+];
 
 const BAR: Material = Material::new(1e6, 0.0, 1500.0);
 const LENGTH: f64 = 1.0;

@@ -7,8 +7,6 @@
 
 pub mod cantilever;
 pub mod celerity;
-#[cfg(test)]
-mod climb;
 pub mod collapse;
 pub mod contact;
 pub mod convergence;
@@ -17,7 +15,7 @@ pub mod earth_pressure;
 pub mod energy;
 pub mod exactness;
 pub mod fault;
-pub mod figures;
+pub mod figure;
 pub mod manufactured;
 pub mod neo_hookean;
 pub mod release;
@@ -28,10 +26,10 @@ pub mod sliding_block;
 pub mod wall_pressure;
 
 pub use fault::{Fault, FaultKind};
+pub use figure::Figure;
 
 use checkdam::check::{Check, Verdict};
 use checkdam::simulation::StepFailure;
-use figures::FIGURES;
 use std::path::Path;
 
 /// Why a rung could not be run to its end.
@@ -51,16 +49,34 @@ impl From<StepFailure> for RungFailure {
 /// One rung of the ladder.
 #[derive(Debug, Clone, Copy)]
 pub struct Rung {
-    /// Name, also of its report.
+    /// Name, also of its module and its report.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// What it runs, in a line.
     pub title: &'static str,
+    /// What it is for: what must come out.
+    pub goal: &'static str,
+    /// Where that comes from.
+    pub source: &'static str,
+    /// The scene in five lines of text.
+    pub sketch: &'static str,
     /// Runs it.
     pub run: fn(&Fault) -> Result<Outcome, RungFailure>,
     /// Faults that it claims to catch, with their factors f; 2 - f is tried as well.
     pub covers: &'static [(FaultKind, f64)],
     /// What of it runs under a fault, where a part is enough to notice; "all" otherwise.
     pub under_fault: &'static str,
+    /// What is drawn of its tables; at least one.
+    pub figures: &'static [Figure],
+}
+
+/// The name of a rung from the path of its module: the last part.
+pub(crate) const fn of_module(path: &'static str) -> &'static str {
+    let bytes = path.as_bytes();
+    let mut start = bytes.len();
+    while start > 0 && bytes[start - 1] != b':' {
+        start -= 1;
+    }
+    path.split_at(start).1
 }
 
 /// What a rung found.
@@ -87,26 +103,43 @@ impl Outcome {
     /// The outcome as a verdict of the rung `name`, whose tables and figures are in `folder`.
     pub fn verdict(&self, name: &str, folder: &Path) -> Verdict {
         let tables = std::iter::once(name).chain(self.tables.iter().map(|t| t.0.as_str())).map(|n| format!("{n}.csv"));
-        let figures = FIGURES.iter().filter(|f| f.rung == name).map(|f| format!("{}.svg", f.name));
+        let figures =
+            RUNGS.iter().filter(|r| r.name == name).flat_map(|r| r.figures).map(|f| format!("{}.svg", f.name));
         let path = |file: String| folder.join(file).display().to_string();
         Verdict { name: name.into(), checks: self.checks.clone(), artefacts: figures.chain(tables).map(path).collect() }
     }
 }
 
-/// The ladder, from the bottom.
-pub const RUNGS: &[Rung] = &[
-    exactness::RUNG,
-    self_weight::RUNG,
-    sliding_block::RUNG,
-    drucker_prager_point::RUNG,
-    celerity::RUNG,
-    energy::RUNG,
-    earth_pressure::RUNG,
-    manufactured::RUNG,
-    cantilever::RUNG,
-    neo_hookean::RUNG,
-    contact::RUNG,
-    wall_pressure::RUNG,
-    collapse::RUNG,
-    convergence::RUNG,
-];
+/// Makes the list of rungs, and a macro that hands their names to another one, so that each is a test of its own.
+macro_rules! ladder {
+    ($dollar:tt $($rung:ident),* $(,)?) => {
+        /// The ladder, from the bottom.
+        pub const RUNGS: &[Rung] = &[$($rung::RUNG),*];
+
+        /// Calls a macro with the names of all rungs, from the bottom.
+        #[macro_export]
+        macro_rules! each_rung {
+            ($dollar call:ident) => { $dollar call! { $($rung),* } };
+        }
+    };
+}
+
+ladder! { $
+    exactness,
+    self_weight,
+    sliding_block,
+    drucker_prager_point,
+    celerity,
+    energy,
+    earth_pressure,
+    manufactured,
+    cantilever,
+    neo_hookean,
+    contact,
+    wall_pressure,
+    collapse,
+    convergence,
+}
+
+#[cfg(test)]
+mod climb;

@@ -8,8 +8,11 @@
 use super::report::named_csv;
 use super::scene::{Brick, Material, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, measured};
+use crate::of_module;
 use checkdam::check::{Check, Kind, Tolerance};
 use checkdam::constitutive::{AnyLaw, Increment, Law, NeoHookean, PointState};
+use checkdam::plot::curves::Curves;
 use checkdam::shape::ShapeFunction;
 use checkdam::simulation::Simulation;
 use checkdam::theory::elastic::bar_speed;
@@ -18,12 +21,36 @@ use std::f64::consts::PI;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "neo_hookean",
+    name: of_module(module_path!()),
     title: "Neo-Hookean law at a point: stretch, shear, rotation, energy; a square that spins keeps its energy",
+    goal: "The hyperelastic law gives the stress of the deformation gradient, and gives back the energy of a square that spins",
+    source: "P = mu (F - F^-T) + lambda ln J F^-T, Simo and Pister 1984",
+    sketch: r"
+   one point:  F = stretch, shear, turn, in any steps
+                  __
+                /o o\     spins freely at 1 % strain:
+               |o o o|    its energy stays
+                \o_o/
+",
     run,
     covers: &[(FaultKind::Modulus, 1.02)],
     under_fault: "one point",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[curves(
+    "neo_hookean_spin",
+    "neo_hookean_spin_plot",
+    Curves {
+        x: "turns",
+        x_title: "turns",
+        y_title: "over the initial value",
+        curves: &[measured("energy_over_initial", "energy"), measured("size_over_initial", "size")],
+        split: &[("law", "")],
+        ..Curves::LINEAR
+    },
+)];
 
 const RUBBER: Material = Material::new(1e6, 0.3, 1000.0);
 const SOURCE: &str = "P = mu (F - F^-T) + lambda ln J F^-T, Simo and Pister 1984";

@@ -1,6 +1,5 @@
 //! Reports as CSV text: the same bytes for the same bits.
 
-use super::figures::draw_figures;
 use super::{Fault, FaultKind, Outcome, RUNGS, Rung};
 use checkdam::check::{Check, Expected, significant};
 use checkdam::output::{OutputError, write_text};
@@ -31,7 +30,9 @@ pub fn write(name: &str, outcome: &Outcome, folder: &Path) -> Result<Vec<String>
         written.push(format!("{stem}.csv"));
         write_text(folder.join(format!("{stem}.csv")), &text)?;
     }
-    written.extend(draw_figures(name, folder)?);
+    for figure in RUNGS.iter().filter(|r| r.name == name).flat_map(|r| r.figures) {
+        written.push(figure.draw(folder)?);
+    }
     Ok(written)
 }
 
@@ -223,7 +224,17 @@ mod tests {
 
     #[test]
     fn only_numbers_that_miss_physics_catch_a_fault() {
-        let rung = Rung { name: "r", title: "t", run: failing, covers: &[], under_fault: "all" };
+        let rung = Rung {
+            name: "r",
+            title: "t",
+            goal: "g",
+            source: "s",
+            sketch: "",
+            run: failing,
+            covers: &[],
+            under_fault: "all",
+            figures: &[],
+        };
         let caught = Caught::by(&rung, FaultKind::Friction, 1.25);
         assert_eq!((caught.failing, caught.checks, caught.sharpest.as_str()), (1, 4, "friction"));
         assert!((caught.ratio - 2.5).abs() < 1e-9);

@@ -12,8 +12,11 @@
 use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, THICKNESS, points_by_number, run_until, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::boundary::{Boundary, Friction};
 use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::plot::curves::{Curves, panel};
 use checkdam::simulation::{PicShare, Simulation};
 use checkdam::theory::elastic::confined_speed;
 use checkdam::theory::order;
@@ -22,8 +25,17 @@ use nalgebra::Vector2;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "self_weight",
+    name: of_module(module_path!()),
     title: "A confined column under its own weight: stress, settlement, energy and weight on the base, three grids",
+    goal: "Stress, settlement, stored energy and the force on the base of a column in equilibrium",
+    source: "equilibrium, sigma = -rho0 g (L - Y), and the logarithmic law of rates in theory::self_weight",
+    sketch: r"
+   smooth  |o o|  smooth      |
+           |o o|              | g
+           |o o|              v
+           |o o|   L
+   --------+---+--------  base: the column's weight
+",
     run,
     covers: &[
         (FaultKind::Gravity, 1.03),
@@ -32,7 +44,41 @@ pub const RUNG: Rung = Rung {
         (FaultKind::ContactForce, 1.02),
     ],
     under_fault: "all",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "self_weight_profile",
+        "self_weight_profile_plot",
+        Curves {
+            x: "y_exact_m",
+            x_title: "height (m)",
+            y_title: "vertical stress (Pa)",
+            curves: &[measured("stress_pa", "points"), exact("stress_exact_pa", "exact")],
+            split: &[("cell_size_m", "cell size (m) ")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "self_weight_convergence",
+        "self_weight_convergence_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells over the height",
+            y_title: "relative error",
+            curves: &[
+                measured("stress_error", "stress"),
+                measured("position_error", "position"),
+                measured("energy_error", "elastic energy"),
+            ],
+            panels: &[panel("soft column", &[("column", "soft")]), panel("stiff column", &[("column", "stiff")])],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+];
 
 const SOFT: Material = Material::new(1e5, 0.3, 1500.0);
 const STIFF: Material = Material::new(5e5, 0.3, 1500.0);

@@ -14,17 +14,29 @@
 use super::report::named_csv;
 use super::scene::{Brick, Material, THICKNESS, centre, points_by_number, run_until, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::body::Particle;
 use checkdam::boundary::{Boundary, Friction};
 use checkdam::check::{Check, Kind, Tolerance};
+use checkdam::plot::curves::{Curves, panel};
 use checkdam::simulation::{PicShare, Simulation};
 use checkdam::theory::sliding_block as theory;
 use nalgebra::Vector2;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "sliding_block",
+    name: of_module(module_path!()),
     title: "A block on a plane with Coulomb friction, along the grid and at angles to it: slip, stick, arrest, work, impulse",
+    goal: "A block slides, sticks and stops as Coulomb says, wherever the plane lies in the grid",
+    source: "Coulomb 1785: a = g (sin - mu cos); work and impulse of friction",
+    sketch: r"
+        ____
+       |o o o|-->  a
+   ____|o_o_o|_______   mu, at an angle to the grid
+      \
+       \ g, turned by the slope
+",
     run,
     covers: &[
         (FaultKind::Friction, 1.03),
@@ -33,7 +45,27 @@ pub const RUNG: Rung = Rung {
         (FaultKind::ContactForce, 1.03),
     ],
     under_fault: "all",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[curves(
+    "sliding_block_slip",
+    "sliding_block_slip_plot",
+    Curves {
+        x: "time_s",
+        x_title: "time (s)",
+        y_title: "displacement (m)",
+        curves: &[measured("displacement_m", ""), exact("displacement_exact_m", "exact")],
+        panels: &[
+            panel("slope 40°", &[("slope_deg", "40")]),
+            panel("slope 31°", &[("slope_deg", "31")]),
+            panel("slope 23°", &[("slope_deg", "23")]),
+        ],
+        split: &[("block", ""), ("plane_to_grid_deg", "plane to grid (degrees) ")],
+        ..Curves::LINEAR
+    },
+)];
 
 const BLOCK: Material = Material::new(2e7, 0.3, 1500.0);
 const H: f64 = 0.05;

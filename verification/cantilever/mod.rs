@@ -22,20 +22,75 @@ mod swing;
 use super::report::named_csv;
 use super::scene::Material;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use beam::{Beam, DEPTH, Load, settle};
 use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::plot::curves::{Curves, panel};
 use checkdam::shape::ShapeFunction;
 use checkdam::theory::cantilever::elastica;
 use checkdam::theory::order;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "cantilever",
+    name: of_module(module_path!()),
     title: "A clamped beam: deflection under a force at the tip and a load all along, first frequency, elastica",
+    goal: "A clamped beam: small deflection by tip and by line load, first frequency, large rotation",
+    source: "Timoshenko 1921 with Cowper 1966; the elastica with shear",
+    sketch: r"
+     F -> _
+         | |  line load ->
+         | |               w = F L^3/(3 E'I) + F L/(k G A)
+         | | L
+   ======|_|======  clamp
+",
     run,
     covers: &[(FaultKind::Modulus, 1.03)],
     under_fault: "uGIMP without lateral strain on 4 and 8 cells, first frequency on 8",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "cantilever_deflection",
+        "cantilever_deflection_plot",
+        Curves {
+            x: "cells_through_depth",
+            x_title: "cells through the depth",
+            y_title: "error of the deflection, relative",
+            curves: &[measured("deflection_error", "")],
+            panels: &[panel("uGIMP", &[("shape", "uGIMP")]), panel("B-spline", &[("shape", "B-spline")])],
+            split: &[("load", ""), ("length_over_depth", "L/t "), ("poisson", "nu ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "cantilever_elastica",
+        "cantilever_elastica_plot",
+        Curves {
+            x: "cells_through_depth",
+            x_title: "cells through the depth",
+            y_title: "deflection / length, at 26° of the tip",
+            curves: &[measured("deflection_over_length", ""), exact("deflection_exact", "elastica with shear")],
+            split: &[("shape", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "cantilever_frequency",
+        "cantilever_frequency_plot",
+        Curves {
+            x: "cells_through_depth",
+            x_title: "cells through the depth",
+            y_title: "first frequency (Hz)",
+            curves: &[measured("frequency_hz", ""), exact("frequency_exact_hz", "3.516, shear, rotary inertia")],
+            split: &[("shape", "")],
+            ..Curves::LINEAR
+        },
+    ),
+];
 
 const MATERIAL: Material = Material::new(1e6, 0.3, 2000.0);
 const NO_LATERAL_STRAIN: Material = Material::new(1e6, 0.0, 2000.0);

@@ -14,13 +14,24 @@ mod scenes;
 
 use super::report::named_csv;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::contact::rule::GapRule;
+use checkdam::plot::curves::{Curves, panel};
 use scenes::{GAPS, NORMALS, rule};
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "contact",
+    name: of_module(module_path!()),
     title: "Bodies in contact: bars that strike each other, a block on an elastic base, Hertz's contact, sand against a wall",
+    goal: "Bodies in contact: impulses of impact, friction on an elastic base, pressure of a row of Hertz contacts, sand on a wall",
+    source: "Saint-Venant; Coulomb 1785; theory::hertz (Westergaard 1939); Newton's third law",
+    sketch: r"
+   [bar]-> [bar]     ____ block        _  _  _  wavy   |o o|wall
+                   _|____|_->         / \/ \/ \        |o o||
+                  |  base  |         -----------       |o o||
+   rho c v          mu, work          p(x)              force
+",
     run,
     covers: &[
         (FaultKind::Friction, 1.05),
@@ -29,7 +40,50 @@ pub const RUNG: Rung = Rung {
         (FaultKind::Modulus, 1.05),
     ],
     under_fault: "equal bars, the first block; Hertz's contact on the coarse grid (modulus: it alone; contact force)",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "contact_bars",
+        "contact_bars_plot",
+        Curves {
+            x: "time_over_contact",
+            x_title: "time over that of the contact",
+            y_title: "force over the first exact one",
+            curves: &[measured("force_over_first", "computed"), exact("force_exact_over_first", "exact")],
+            panels: &[
+                panel("an equal bar", &[("second_bar", "an equal bar")]),
+                panel("twice as long", &[("second_bar", "a bar twice as long")]),
+                panel("half the impedance", &[("second_bar", "a bar of half its impedance")]),
+                panel("seven times the impedance", &[("second_bar", "a bar seven times its impedance")]),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "contact_hertz_pressure",
+        "contact_hertz_pressure_plot",
+        Curves {
+            x: "x_over_half_width",
+            x_title: "distance from the crest over the half width",
+            y_title: "pressure over its peak",
+            curves: &[
+                measured("node_over_peak", "single nodes"),
+                measured("smoothed_over_peak", "means (1, 2, 1)/4"),
+                exact("exact_over_peak", "Westergaard"),
+            ],
+            panels: &[
+                panel("40 cells, half width of 2.5", &[("cells_per_wavelength", "40"), ("load", "first")]),
+                panel("40 cells, half width of 5", &[("cells_per_wavelength", "40"), ("load", "second")]),
+                panel("80 cells, half width of 5", &[("cells_per_wavelength", "80"), ("load", "first")]),
+                panel("80 cells, half width of 10", &[("cells_per_wavelength", "80"), ("load", "second")]),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+];
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();

@@ -20,15 +20,27 @@ mod elastic;
 
 use super::report::number;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Drawing, Figure};
+use crate::of_module;
 use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::plot::heat_map::HeatMap;
 use checkdam::theory::order::Study;
 use elastic::{HEIGHT, LENGTH};
 use rayon::prelude::*;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "convergence",
+    name: of_module(module_path!()),
     title: "Cell size and points per cell: impact of a bar, wall force of a column, force and front in the flume",
+    goal: "What cell size and points per cell do to forces, settlement and front: order, grid convergence index, error",
+    source: "Roache 1994; Celik et al. 2008; rho c v; theory::self_weight",
+    sketch: r"
+   h = coarse ... fine      points a cell = 1, 4, 9, 16
+   +---+---+   +-+-+-+-+
+   | o | o |   |o|o|o|o|    a bar on a wall, a column,
+   +---+---+   +-+-+-+-+    the flume at 40 degrees
+   order p, extrapolated value, GCI
+",
     run,
     covers: &[
         (FaultKind::Modulus, 1.05),
@@ -37,7 +49,33 @@ pub const RUNG: Rung = Rung {
         (FaultKind::ContactForce, 1.03),
     ],
     under_fault: "bar and column with 4 points a cell",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[Figure {
+    table: "convergence_grids",
+    name: "convergence_grids_plot",
+    drawing: Drawing::HeatMap(HeatMap {
+        panel: "quantity",
+        panels: &[
+            ("bar_plateau_pa", "bar on a wall: force"),
+            ("bar_impulse_over_2mv", "bar on a wall: impulse"),
+            ("column_wall_force_n_per_m", "column: force on the wall"),
+            ("column_settlement_m", "column: settlement"),
+            ("flume_peak_20ms_n", "flume: peak force over 20 ms"),
+            ("flume_static_n", "flume: static force"),
+            ("flume_arrival_s", "flume: arrival"),
+            ("flume_front_velocity_at_0.7m_m_per_s", "flume: front velocity at 0.7 m"),
+        ],
+        x: "h_m",
+        x_title: "cell size (m)",
+        y: "particles_per_cell",
+        y_title: "points/cell",
+        value: "deviation_percent",
+        value_title: "deviation from the reference (%), colour by its size",
+    }),
+}];
 
 /// Points per cell and direction.
 const POINTS: [usize; 4] = [1, 2, 3, 4];

@@ -9,17 +9,74 @@ mod history;
 mod strength;
 
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::constitutive::{Cone, DruckerPrager, Increment, Law, LinearElastic, PointState};
+use checkdam::plot::curves::Curves;
 use checkdam::theory::elastic::Elastic;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "drucker_prager_point",
+    name: of_module(module_path!()),
     title: "One material point: strength on every path, dilatancy, apex, cohesion, opening and closing, Jaumann rate",
+    goal: "The law at one point: strength on every path, dilatancy, apex, opening and closing, rate of turning",
+    source: "Drucker and Prager 1952; Mohr-Coulomb at the same angle; Dienes 1979; Hughes and Winget 1980",
+    sketch: r"
+   sqrt(J2)  |      / cone
+             |    /
+             |  /    paths: compression, extension,
+             |/      shear, opening, turning
+   ---------apex------------ -p
+",
     run,
     covers: &[(FaultKind::Friction, 1.02), (FaultKind::Modulus, 1.02)],
     under_fault: "all",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "drucker_prager_point_jaumann",
+        "drucker_prager_point_jaumann_plot",
+        Curves {
+            x: "gamma",
+            x_title: "shear strain",
+            y_title: "stress (Pa)",
+            curves: &[
+                measured("sigma_xy_pa", "shear"),
+                exact("sigma_xy_exact_pa", "G sin(gamma)"),
+                measured("sigma_xx_pa", "normal"),
+                exact("sigma_xx_exact_pa", "G (1 - cos(gamma))"),
+            ],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "drucker_prager_point_angles",
+        "drucker_prager_point_angles_plot",
+        Curves {
+            x: "friction_angle_deg",
+            x_title: "friction angle that the cone is given (degrees)",
+            y_title: "friction angle in plane strain (degrees)",
+            curves: &[measured("plane_strain_angle_deg", ""), exact("plane_strain_angle_exact_deg", "closed form")],
+            split: &[("cone", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "drucker_prager_point_opening",
+        "drucker_prager_point_opening_plot",
+        Curves {
+            x: "strain",
+            x_title: "vertical strain, opened and closed again",
+            y_title: "vertical pressure (Pa)",
+            curves: &[measured("vertical_pressure_pa", "")],
+            split: &[("void_tracking", "void tracking ")],
+            ..Curves::LINEAR
+        },
+    ),
+];
 
 const SAND: Elastic = Elastic { young: 1e6, poisson: 0.3 };
 /// Friction angle, rad.

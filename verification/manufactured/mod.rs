@@ -22,7 +22,10 @@ mod vortex;
 
 use super::report::named_csv;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, measured};
+use crate::of_module;
 use checkdam::check::{Check, Expected, Kind, Tolerance};
+use checkdam::plot::curves::{Curves, Panel, panel};
 use checkdam::shape::ShapeFunction;
 use checkdam::theory::order;
 use field::{Errors, Setting, State, elasticity, fly};
@@ -30,12 +33,94 @@ use std::f64::consts::PI;
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "manufactured",
+    name: of_module(module_path!()),
     title: "A manufactured solution: order in space and time, three shape functions, small and large amplitude; a vortex; a fixed bar",
+    goal: "Observed order in space and time on an exact field, for three shape functions and strains up to 0.3",
+    source: "method of manufactured solutions; Wallstedt and Guilkey 2008; Steffen, Kirby and Berzins 2008",
+    sketch: r"
+   +-----------+     u = A sin(k x) sin(c k t), and in y
+   | ~ ~ ~ ~ ~ |     driven by the force that this needs
+   | ~ ~ ~ ~ ~ |     errors at c t = 0.3 and 0.7 sides,
+   | ~ ~ ~ ~ ~ |     on 8, 16, 32, 64 cells
+   +-----------+
+",
     run,
     covers: &[(FaultKind::Modulus, 1.03), (FaultKind::Density, 1.03)],
     under_fault: "uGIMP at small amplitude, the vortex at the smaller angle, the fixed bar",
+    figures: FIGURES,
 };
+
+const SHAPE_PANELS: [Panel<'static>; 3] = [
+    panel("linear", &[("shape", "linear")]),
+    panel("uGIMP", &[("shape", "uGIMP")]),
+    panel("B-spline", &[("shape", "B-spline")]),
+];
+
+/// All points of a manufactured solution at the first time, by shape function.
+const ALL_POINTS: [Panel<'static>; 3] = [
+    panel("linear", &[("shape", "linear"), ("ct_over_side", "0.3"), ("place", "all points")]),
+    panel("uGIMP", &[("shape", "uGIMP"), ("ct_over_side", "0.3"), ("place", "all points")]),
+    panel("B-spline", &[("shape", "B-spline"), ("ct_over_side", "0.3"), ("place", "all points")]),
+];
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "manufactured_space",
+        "manufactured_space_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells per side",
+            y_title: "error of displacement / amplitude",
+            curves: &[measured("displacement_error", "")],
+            panels: &ALL_POINTS,
+            split: &[("amplitude_over_side", "amplitude / side ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "manufactured_space",
+        "manufactured_stress_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells per side",
+            y_title: "error of stress / (M k A)",
+            curves: &[measured("stress_error", "")],
+            panels: &ALL_POINTS,
+            split: &[("amplitude_over_side", "amplitude / side ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "manufactured_time",
+        "manufactured_time_plot",
+        Curves {
+            x: "c_dt_over_h",
+            x_title: "c dt / h",
+            y_title: "change of displacement / amplitude",
+            curves: &[measured("displacement_change", "")],
+            panels: &SHAPE_PANELS,
+            split: &[("amplitude_over_side", "amplitude / side ")],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+    curves(
+        "manufactured_vortex",
+        "manufactured_vortex_plot",
+        Curves {
+            x: "cells",
+            x_title: "cells per radius of the vortex",
+            y_title: "relative error",
+            curves: &[measured("displacement_error", "displacement"), measured("stress_error", "stress")],
+            panels: &SHAPE_PANELS,
+            split: &[("angle_rad", "angle (rad) ")],
+            orders: &[1.0, 2.0],
+            ..Curves::LOGARITHMIC
+        },
+    ),
+];
 
 const GRIDS: [usize; 4] = [8, 16, 32, 64];
 const COURANT: f64 = 0.2;

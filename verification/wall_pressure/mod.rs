@@ -30,17 +30,30 @@ mod stroke;
 use super::report::number;
 use super::scene::Material;
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
+use crate::figure::{Figure, curves, exact, measured};
+use crate::of_module;
 use checkdam::boundary::Friction;
 use checkdam::check::{Check, Expected, Kind, Tolerance};
 use checkdam::constitutive::Cone;
+use checkdam::plot::curves::{Curves, panel};
 use checkdam::theory::{drucker_prager, earth_pressure};
 use rayon::prelude::*;
 use stroke::{GRAVITY, HEIGHT, Moment, PHI, Setup, Stroke};
 
 /// The rung.
 pub const RUNG: Rung = Rung {
-    name: "wall_pressure",
+    name: of_module(module_path!()),
     title: "A wall moves out of sand and into it: Rankine and Coulomb coefficients by cone, point of action, wedge angle",
+    goal: "Active and passive force of sand on a wall that moves, where it acts, and the edge of the wedge",
+    source: "Rankine 1857; Coulomb 1776; Davis 1968 for flow at constant volume",
+    sketch: r"
+   <- wall ->
+          |o o o o o o o o
+     H    |o o o o o/ o o     wedge at 45 deg +/- phi/2
+   F -->  |o o o / o o o
+   H/3    |o o/o o o o o
+   -------+----------------   smooth or rough base
+",
     run,
     covers: &[
         (FaultKind::Friction, 1.05),
@@ -49,7 +62,56 @@ pub const RUNG: Rung = Rung {
         (FaultKind::ContactForce, 1.03),
     ],
     under_fault: "the smooth base: closed forms without a wedge",
+    figures: FIGURES,
 };
+
+/// Its figures.
+const FIGURES: &[Figure] = &[
+    curves(
+        "wall_pressure_stroke",
+        "wall_pressure_stroke_plot",
+        Curves {
+            x: "stroke_percent",
+            x_title: "stroke / height of the wall (%)",
+            y_title: "normal force / (rho g H² / 2)",
+            curves: &[
+                measured("coefficient", ""),
+                exact("coefficient_theory", "closed form of the fill's cone"),
+                exact("coefficient_at_31_deg", "Rankine or Coulomb at 31°"),
+            ],
+            panels: &[
+                panel("active, smooth base", &[("side", "active"), ("base", "smooth")]),
+                panel("passive, smooth base", &[("side", "passive"), ("base", "smooth")]),
+                panel("active, wedge on a rough base", &[("side", "active"), ("base", "rough")]),
+                panel("passive, wedge on a rough base", &[("side", "passive"), ("base", "rough")]),
+            ],
+            split: &[("fill", "")],
+            ..Curves::LINEAR
+        },
+    ),
+    curves(
+        "wall_pressure_wedge",
+        "wall_pressure_wedge_plot",
+        Curves {
+            x: "height_over_height",
+            x_title: "height / height of the wall",
+            y_title: "distance / height of the wall",
+            curves: &[
+                measured("edge_over_height", ""),
+                exact("coulomb_over_height", "Coulomb's wedge, smooth wall: 45° ± phi/2"),
+                exact("roscoe_over_height", "45° ± psi/2"),
+            ],
+            panels: &[
+                panel("active, constant volume", &[("side", "active"), ("flow", "constant volume")]),
+                panel("passive, constant volume", &[("side", "passive"), ("flow", "constant volume")]),
+                panel("active, associated flow", &[("side", "active"), ("flow", "associated")]),
+                panel("passive, associated flow", &[("side", "passive"), ("flow", "associated")]),
+            ],
+            split: &[("fill", "")],
+            ..Curves::LINEAR
+        },
+    ),
+];
 
 const SOFT: Material = Material::new(1e6, 0.3, 1500.0);
 const STIFF: Material = Material::new(1e7, 0.3, 1500.0);
