@@ -38,7 +38,7 @@ pub mod mutant_switch {
     }
 }
 """
-OTHERS = ["case::", "check::", "output::", "plot::", "run::", "study::", "theory::", "validation::", "verification::"]
+OTHERS = ["case::", "check::", "output::", "plot::", "run::", "study::", "scaffold::", "theory::"]
 # Tests that take a second or more, in the end.
 SLOW = [
     "contact::tests::surfaces::",
@@ -131,7 +131,7 @@ class File:
 def build(files):
     """Compiles the tests with all mutants of these files; returns the binary and the mutants that do not compile."""
     wanted, unviable = {n for f in files for n in f.names}, set()
-    command = ["cargo", "test", "--no-run", "--lib", "--profile", "mutants", "--message-format=json"]
+    command = ["cargo", "test", "--no-run", "--package", "checkdam", "--lib", "--profile", "mutants", "--message-format=json"]
     while True:
         taken = {}
         for f in files:
