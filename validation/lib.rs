@@ -12,6 +12,7 @@ pub mod data;
 #[cfg(test)]
 mod errata;
 pub mod flume;
+pub mod index;
 pub mod record;
 pub mod watch;
 

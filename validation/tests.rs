@@ -3,7 +3,7 @@
 
 use checkdam_validation::record::{RecordedRun, processors, spread_out};
 use checkdam_validation::{Context, Failure, STUDIES, VALIDATIONS, Validation, write};
-use checkdam_verification::report::{Caught, faults_csv};
+use checkdam_verification::report::{self, Caught, faults_csv};
 use checkdam_verification::{Fault, Outcome};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -26,10 +26,8 @@ fn run(validation: &Validation, fault: Fault, studies: bool, folder: &Path) -> R
 }
 
 /// Compares a file with the one kept in `reports/validation`. The physics has been judged by now.
-fn compare(file: &str, bytes: Vec<u8>) {
-    insta::with_settings!({ snapshot_path => root().join("reports/validation"), prepend_module_to_snapshot => false }, {
-        insta::assert_binary_snapshot!(file, bytes);
-    });
+fn compare(file: &str, bytes: &[u8]) {
+    report::compare(&root().join("reports/validation").join(file), bytes).unwrap_or_else(|e| panic!("\n{e}"));
 }
 
 /// Physics first: nothing is compared, and nothing can be written to the reports, unless every check passes.
@@ -39,19 +37,12 @@ fn validate(name: &str) {
     let written = write(validation, &outcome, &folder).unwrap_or_else(|e| panic!("{name}: {e}"));
     let verdict = outcome.verdict(name, &folder);
     assert!(verdict.passes(), "\n{}", verdict.failing());
-    for file in written {
-        let bytes = std::fs::read(folder.join(&file)).expect("what was just written");
-        compare(&file, if file.ends_with(".md") { as_kept(&bytes) } else { bytes });
-    }
-}
-
-/// A page whose links lead to the files as they are called in `reports`.
-fn as_kept(page: &[u8]) -> Vec<u8> {
-    let text = std::str::from_utf8(page).expect("a page is text");
-    [".svg)", ".csv)", ".md)"]
-        .iter()
-        .fold(text.to_string(), |t, end| t.replace(end, &format!(".snap{end}")))
-        .into_bytes()
+    let read = |file: String| (file.clone(), std::fs::read(folder.join(&file)).expect("what was just written"));
+    let files: Vec<(String, Vec<u8>)> = written.into_iter().map(read).collect();
+    files.iter().for_each(|(file, bytes)| compare(file, bytes));
+    insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!(name, report::contents(&files));
+    });
 }
 
 /// One test per validation, and a test that none was forgotten.
@@ -87,6 +78,15 @@ validations!(
     column_slope
 );
 
+/// `reports/README.md` and the pages of the two suites. Written anew, they take their verdicts from the tables as they were before.
+#[test]
+fn the_pages_list_every_rung_and_validation() {
+    let reports = root().join("reports");
+    for (file, text) in checkdam_validation::index::pages(&reports).unwrap_or_else(|e| panic!("{e}")) {
+        report::compare(&reports.join(file), text.as_bytes()).unwrap_or_else(|e| panic!("\n{e}"));
+    }
+}
+
 /// A force that is 3 % wrong, and other faults of a few percent, fail.
 #[test]
 fn every_fault_is_caught() {
@@ -99,7 +99,7 @@ fn every_fault_is_caught() {
     }
     let missed: Vec<&Caught> = rows.iter().filter(|c| c.failing == 0).collect();
     assert!(missed.is_empty(), "{missed:#?}");
-    compare("faults.csv", faults_csv(&rows).into_bytes());
+    compare("faults.csv", faults_csv(&rows).as_bytes());
 }
 
 /// What the samples of all studies may cost together, in particle-steps: some eight minutes of one processor.

@@ -36,6 +36,58 @@ pub fn write(name: &str, outcome: &Outcome, folder: &Path) -> Result<Vec<String>
     Ok(written)
 }
 
+/// Whether reports are written anew instead of compared: `cargo reports` says so in the environment.
+pub fn written_anew() -> bool {
+    std::env::var_os("CHECKDAM_REPORTS").is_some()
+}
+
+/// Compares a report with the one that is kept, byte for byte; or writes it, if reports are [`written_anew`]. Its physics has to
+/// be judged by now.
+///
+/// # Errors
+/// The first lines that differ, or why the kept one cannot be read or written.
+pub fn compare(kept: &Path, now: &[u8]) -> Result<(), String> {
+    if written_anew() {
+        return std::fs::write(kept, now).map_err(|e| format!("{}: {e}", kept.display()));
+    }
+    let before = std::fs::read(kept).map_err(|e| format!("{}: {e}; `cargo reports` writes it", kept.display()))?;
+    if before == now {
+        return Ok(());
+    }
+    let [before, now] = [&before[..], now].map(|b| String::from_utf8_lossy(b).into_owned());
+    let (mut old, mut new) = (before.lines(), now.lines());
+    let mut shown = vec![format!("{} is not what comes out now:", kept.display())];
+    for line in 1.. {
+        match (old.next(), new.next()) {
+            (None, None) => break,
+            (a, b) if a == b => {}
+            _ if shown.len() > 3 * LINES_SHOWN => {
+                shown.push("...".into());
+                break;
+            }
+            (a, b) => {
+                shown.push(format!("line {line}"));
+                shown.push(format!("  kept {}", a.unwrap_or("(no such line)")));
+                shown.push(format!("  now  {}", b.unwrap_or("(no such line)")));
+            }
+        }
+    }
+    Err(shown.join("\n"))
+}
+
+/// How many lines that differ are shown.
+const LINES_SHOWN: usize = 8;
+
+/// What a rung or a validation leaves behind: every file with its lines and, of a table, its columns.
+pub fn contents(files: &[(String, Vec<u8>)]) -> String {
+    let line = |(name, bytes): &(String, Vec<u8>)| {
+        let text = String::from_utf8_lossy(bytes);
+        let columns = text.lines().next().filter(|_| name.ends_with(".csv")).unwrap_or_default();
+        format!("{name}: {} lines {columns}\n", text.lines().count()).replace(" \n", "\n")
+    };
+    files.iter().map(line).collect()
+}
+
 /// The checks of an outcome as CSV, one a line.
 pub fn checks_csv(outcome: &Outcome) -> String {
     let mut text =
@@ -242,6 +294,19 @@ mod tests {
         assert_eq!((missed.failing, missed.ratio, missed.sharpest.as_str()), (0, 0.0, ""));
         let table = faults_csv(&[caught, missed]);
         assert!(table.ends_with("r,friction,1.25,1,4,2.5,friction\nr,gravity,1.25,0,4,0,\n"), "{table}");
+    }
+
+    #[test]
+    fn a_report_that_changed_is_shown_line_by_line() {
+        let kept = std::env::temp_dir().join(format!("checkdam_report_{}.csv", std::process::id()));
+        std::fs::write(&kept, "a_m\n1\n2\n").expect("a file");
+        assert_eq!(compare(&kept, b"a_m\n1\n2\n"), Ok(()));
+        let told = compare(&kept, b"a_m\n1\n3\n4\n").expect_err("it differs");
+        assert!(told.contains("line 3\n  kept 2\n  now  3\nline 4\n  kept (no such line)\n  now  4"), "{told}");
+        std::fs::remove_file(&kept).expect("a file");
+        assert!(compare(&kept, b"").expect_err("it is gone").contains("cargo reports"));
+        let files = [("a.csv".to_string(), b"a_m,b_1\n1,2\n".to_vec()), ("b.svg".to_string(), b"<svg/>\n".to_vec())];
+        assert_eq!(contents(&files), "a.csv: 2 lines a_m,b_1\nb.svg: 1 lines\n");
     }
 
     #[test]

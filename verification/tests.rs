@@ -1,7 +1,7 @@
 //! Runs the ladder. Physics is judged first, then the reports are compared with those in `reports/verification`; after a
 //! change of the physics that is meant, `cargo reports` writes them anew.
 
-use checkdam_verification::report::{Caught, faults_csv, ladder_csv, write};
+use checkdam_verification::report::{self, Caught, faults_csv, ladder_csv, write};
 use checkdam_verification::{Fault, FaultKind, RUNGS, Rung};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -15,10 +15,8 @@ fn root() -> &'static Path {
 }
 
 /// Compares a report with the one in `reports/verification`.
-fn compare(file: &str, content: &str) {
-    insta::with_settings!({ snapshot_path => root().join("reports/verification"), prepend_module_to_snapshot => false }, {
-        insta::assert_binary_snapshot!(file, content.as_bytes().to_vec());
-    });
+fn compare(file: &str, content: &[u8]) {
+    report::compare(&root().join("reports/verification").join(file), content).unwrap_or_else(|e| panic!("\n{e}"));
 }
 
 /// Runs a rung, leaves its tables and figures in a folder below the build's, and judges its physics: the files, or the table
@@ -34,9 +32,12 @@ fn judge(rung: &Rung, fault: &Fault, folder: &str) -> Result<(PathBuf, Vec<Strin
 /// Physics first: nothing is compared, and nothing can be written to the reports, unless every check passes.
 fn climb(name: &str) {
     let (folder, written) = judge(rung(name), &Fault::NONE, "verification").unwrap_or_else(|table| panic!("\n{table}"));
-    for file in written {
-        compare(&file, &std::fs::read_to_string(folder.join(&file)).expect("what was just written"));
-    }
+    let read = |file: String| (file.clone(), std::fs::read(folder.join(&file)).expect("what was just written"));
+    let files: Vec<(String, Vec<u8>)> = written.into_iter().map(read).collect();
+    files.iter().for_each(|(file, bytes)| compare(file, bytes));
+    insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!(name, report::contents(&files));
+    });
 }
 
 /// What a rung makes of the faults that it claims to catch, in either direction; run once, whoever asks first.
@@ -79,7 +80,7 @@ macro_rules! ladder {
         #[test]
         fn every_rung_is_tested() {
             assert_eq!(RUNGS.iter().map(|r| r.name).collect::<Vec<_>>(), [$(stringify!($name)),*]);
-            compare("ladder.csv", &ladder_csv());
+            compare("ladder.csv", ladder_csv().as_bytes());
         }
 
     };
@@ -95,7 +96,7 @@ fn faults_are_written_down() {
     }
     let far = |c: &&Caught| !(0.019..0.051).contains(&(c.factor - 1.0).abs());
     assert!(rows.iter().find(far).is_none(), "faults are of 2 to 5 %: {:?}", rows.iter().find(far));
-    compare("faults.csv", &faults_csv(&rows));
+    compare("faults.csv", faults_csv(&rows).as_bytes());
 }
 
 #[test]
@@ -158,14 +159,13 @@ fn every_rung_has_a_figure_and_every_report_a_rung() {
     }
     // A report that no rung writes any more is stale.
     let known = |name: &str| {
-        name == "faults"
-            || name == "ladder"
+        ["faults", "ladder", "README"].contains(&name)
             || RUNGS.iter().flat_map(|r| r.figures).any(|f| f.name == name || f.table == name)
             || RUNGS.iter().any(|r| name.starts_with(r.name))
     };
     for entry in std::fs::read_dir(root().join("reports/verification")).expect("the reports") {
         let name = entry.expect("an entry").file_name().to_string_lossy().into_owned();
-        let stem = name.split(".snap").next().unwrap_or_default().to_string();
+        let stem = name.split('.').next().unwrap_or_default().to_string();
         assert!(known(&stem), "{name} belongs to no rung: delete it");
     }
 }

@@ -29,7 +29,7 @@ fn verify_writes_the_reports_byte_for_byte() {
     assert!(once.keys().any(|name| name.ends_with(".svg")) && once.len() > 12, "{:?}", once.keys());
     for (name, bytes) in &once {
         let (stem, kind) = name.split_once('.').unwrap();
-        let stored = reports.join(format!("{stem}.snap.{kind}"));
+        let stored = reports.join(format!("{stem}.{kind}"));
         let stored = fs::read(&stored).unwrap_or_else(|error| panic!("{}: {error}", stored.display()));
         assert!(stored == *bytes, "{name} is not what stands in the reports");
     }
@@ -60,8 +60,8 @@ fn validate_writes_the_reports_byte_for_byte() {
     assert!(results.len() >= 6, "{:?}", results.keys());
     for (name, bytes) in &results {
         let (stem, kind) = name.split_once('.').unwrap();
-        let stored = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-            .join(format!("reports/validation/{stem}.snap.{kind}"));
+        let stored =
+            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("reports/validation/{stem}.{kind}"));
         let stored = fs::read(&stored).unwrap_or_else(|error| panic!("{}: {error}", stored.display()));
         assert!(stored == *bytes, "{name} is not what stands in the reports");
     }
