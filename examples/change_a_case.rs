@@ -13,7 +13,7 @@ use std::path::Path;
 fn with_base_friction(friction: f64) -> Result<Summary, Box<dyn Error>> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/flume/40deg.toml");
     let mut case = case::load(&file)?.case;
-    case.grid.spacing_m = 0.04;
+    case.grid.spacing_m = 0.025;
     case.gauges.field_times_s.clear();
     case.stages.run.end_time_s = 2.0;
     let base = case.boundaries.iter_mut().find(|b| b.name == "base").ok_or("no boundary of that name")?;

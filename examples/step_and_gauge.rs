@@ -1,4 +1,4 @@
-//! A block slides against a wall: a scene made from code, stepped, and read by a gauge.
+//! A block strikes a wall: a scene made from code, stepped, and read by a gauge.
 //!
 //! ```sh
 //! cargo run --release --example step_and_gauge
@@ -17,21 +17,22 @@ const DENSITY: f64 = 1500.0;
 /// Its speed, m/s.
 const SPEED: f64 = 0.5;
 
-/// Impulse on the wall, N s, and the momentum that the block came with, N s.
+/// Impulse on the wall and what the block lost of its momentum along x, N s.
 fn impact() -> Result<(f64, f64), StepFailure> {
-    // Ten by five cells of four points, 1 MPa, on a smooth base, half a cell before a smooth wall.
+    // Ten by five cells of four points, 1 MPa, on a smooth base, against a smooth wall.
     let block = Brick::new([0.0, 0.0], [10, 5], H);
     let mut points = block.points();
     points.iter_mut().for_each(|p| p.v = [SPEED, 0.0]);
     let base = Boundary::plane("base", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Smooth);
-    let face = Vector2::new(10.5 * H, 0.0);
+    let face = Vector2::new(10.0 * H, 0.0);
     let wall = Boundary::plane("wall", face, Vector2::new(-1.0, 0.0), Friction::Smooth);
     let mut simulation = Simulation::new(scene(&block, elastic(1e6, 0.0), DENSITY, points, vec![base, wall]));
 
     // The gauge adds up what the wall gives to the material, step by step, and never touches it.
     let mut gauge = BarrierGauge::new(&simulation, 1);
     let (mut impulse, mut time) = (0.0, 0.0);
-    for sample in 1..=40 {
+    let before = simulation.stock().momentum[0];
+    for sample in 1..=20 {
         while simulation.time() < f64::from(sample) * 1e-3 {
             simulation.step()?;
             gauge.after_step(&simulation);
@@ -41,17 +42,21 @@ fn impact() -> Result<(f64, f64), StepFailure> {
         time += force.duration;
         println!("{time:.4} s  {:8.2} N  (largest step {:8.2} N)", force.normal, force.normal_max);
     }
-    Ok((impulse, DENSITY * 50.0 * H * H * THICKNESS * SPEED))
+    Ok((impulse, before - simulation.stock().momentum[0]))
 }
 
 fn main() -> Result<(), StepFailure> {
-    let (impulse, momentum) = impact()?;
-    println!("impulse {impulse:.4} N s, momentum before {momentum:.4} N s: an elastic block comes back as fast, 2 m v");
+    let (impulse, lost) = impact()?;
+    println!("impulse on the wall {impulse:.4} N s, momentum that the block lost {lost:.4} N s");
     Ok(())
 }
 
 #[test]
-fn an_elastic_block_comes_back() {
-    let (impulse, momentum) = impact().expect("it runs");
-    assert!((impulse / (2.0 * momentum) - 1.0).abs() < 0.02, "{impulse} N s of {}", 2.0 * momentum);
+fn the_wall_takes_what_the_block_loses() {
+    let (impulse, lost) = impact().expect("it runs");
+    // Newton's third law, to round-off; a force that is read 3 % wrong fails.
+    assert!((impulse - lost).abs() < 1e-10 * lost, "{impulse} and {lost} N s");
+    // An elastic bar that strikes a wall comes back: 2 m v, within what cells of this size lose.
+    let came = DENSITY * 50.0 * H * H * THICKNESS * SPEED;
+    assert!((impulse / (2.0 * came) - 1.0).abs() < 0.05, "{impulse} N s of {}", 2.0 * came);
 }
