@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::schema::Grid;
+use crate::boundary::{Friction, Opening};
 
 /// A rigid boundary as written in the file. Which of the optional fields are required depends on `kind`, `contact` and
 /// `opening`; [`Boundary::shape`] and [`Boundary::contact_law`] give the outcome.
@@ -122,41 +123,6 @@ pub struct Wall {
     pub thickness_m: f64,
 }
 
-/// How a gate opens.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Opening {
-    /// Disappears at release.
-    Vanish,
-    /// Moves away along its face.
-    Lift {
-        /// Speed, m/s.
-        speed_m_per_s: f64,
-    },
-    /// Moves along its face until `opening_m` is free below it.
-    Raise {
-        /// Speed, m/s; `None`: at once.
-        speed_m_per_s: Option<f64>,
-        /// Free height below the gate, m.
-        opening_m: f64,
-    },
-}
-
-/// Contact law of a boundary.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Contact {
-    /// No friction.
-    Smooth,
-    /// Coulomb friction.
-    Coulomb {
-        /// Friction coefficient.
-        friction: f64,
-    },
-    /// No slip while pressed.
-    Rough,
-    /// No motion at all: a clamp.
-    Bonded,
-}
-
 impl Boundary {
     /// Thickness of walls and gates that give none, in cells.
     pub const DEFAULT_THICKNESS_CELLS: f64 = 4.0;
@@ -170,13 +136,14 @@ impl Boundary {
         }
     }
 
-    /// Contact law; `None` if a required field is missing, which validation refuses.
-    pub fn contact_law(&self) -> Option<Contact> {
+    /// The word of the file and the coefficient beside it as one; `None` if a required field is missing, which validation
+    /// refuses.
+    pub fn contact_law(&self) -> Option<Friction> {
         match self.contact {
-            ContactKind::Smooth => Some(Contact::Smooth),
-            ContactKind::Coulomb => Some(Contact::Coulomb { friction: self.friction? }),
-            ContactKind::Rough => Some(Contact::Rough),
-            ContactKind::Bonded => Some(Contact::Bonded),
+            ContactKind::Smooth => Some(Friction::Smooth),
+            ContactKind::Coulomb => Some(Friction::Coulomb(self.friction?)),
+            ContactKind::Rough => Some(Friction::Rough),
+            ContactKind::Bonded => Some(Friction::Bonded),
         }
     }
 
@@ -198,10 +165,11 @@ impl Boundary {
     fn opening_law(&self) -> Option<Opening> {
         match self.opening.unwrap_or_default() {
             OpeningKind::Vanish => Some(Opening::Vanish),
-            OpeningKind::Lift => Some(Opening::Lift { speed_m_per_s: self.lift_speed_m_per_s? }),
-            OpeningKind::Raise => {
-                Some(Opening::Raise { speed_m_per_s: self.lift_speed_m_per_s, opening_m: self.opening_m? })
-            }
+            OpeningKind::Lift => Some(Opening::Lift { speed: self.lift_speed_m_per_s?, opening: f64::INFINITY }),
+            OpeningKind::Raise => Some(Opening::Lift {
+                speed: self.lift_speed_m_per_s.unwrap_or(f64::INFINITY),
+                opening: self.opening_m?,
+            }),
         }
     }
 

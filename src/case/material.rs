@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::constitutive::Cone;
+
 /// A material. The fields from `friction_angle_deg` on belong to the Drucker-Prager law and are refused with the other.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -38,21 +40,6 @@ pub enum Law {
     LinearElastic,
     /// Neo-Hookean elasticity: for bodies that turn or bend far.
     NeoHookean,
-}
-
-/// How the Drucker-Prager cone is matched to the Mohr-Coulomb angle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Cone {
-    /// Through the triaxial compression corners of the Mohr-Coulomb pyramid.
-    #[default]
-    TriaxialCompression,
-    /// Through its triaxial extension corners.
-    TriaxialExtension,
-    /// The cone that gives the Mohr-Coulomb strength in plane strain.
-    PlaneStrain,
-    /// Equations 3 and 4 of the paper as printed.
-    AsPrinted,
 }
 
 /// The Drucker-Prager parameters of a material, defaults filled in.

@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::boundary::Boundary;
 use super::contact::BodyContact;
 use super::material::Material;
+use crate::shape::ShapeFunction;
+use crate::simulation::{PicShare, Scheme};
 
 /// Most particles a case may have; above this it is refused before any memory is asked for.
 pub const MAX_PARTICLES: f64 = 2.0e7;
@@ -86,19 +88,6 @@ pub struct Grid {
     /// Place of a node, m, \[x, y\]. Default \[0, 0\]; another place says how much a result owes to the grid's.
     #[serde(default)]
     pub origin_m: [f64; 2],
-}
-
-/// Interpolation between particles and grid nodes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ShapeFunction {
-    /// Linear hat functions of a point particle (the original MPM).
-    Linear,
-    /// Uniform generalised interpolation: hat functions averaged over the particle's initial square.
-    #[default]
-    Ugimp,
-    /// Quadratic B-splines.
-    Bspline,
 }
 
 /// The box that holds the simulation. Material that leaves it is removed, counted and reported.
@@ -297,38 +286,16 @@ impl Default for Numerics {
     }
 }
 
-/// Order of the stress update in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Scheme {
-    /// Update stress first.
-    Usf,
-    /// Update stress last.
-    Usl,
-    /// Modified update stress last: grid velocities are mapped back from the particles before the stress update.
-    #[default]
-    Musl,
-}
-
-/// How much of the PIC velocity update is mixed into FLIP.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pic {
-    /// This share in each step.
-    FractionPerStep(f64),
-    /// This rate per second.
-    RatePerSecond(f64),
-}
-
 impl Numerics {
     /// `pic_fraction` when none is given, as in the paper.
     pub const DEFAULT_PIC_FRACTION: f64 = 5.0e-4;
 
     /// The PIC share in force.
-    pub fn pic(&self) -> Pic {
+    pub fn pic(&self) -> PicShare {
         match (self.pic_fraction, self.pic_rate_per_s) {
-            (Some(fraction), _) => Pic::FractionPerStep(fraction),
-            (None, Some(rate)) => Pic::RatePerSecond(rate),
-            (None, None) => Pic::FractionPerStep(Self::DEFAULT_PIC_FRACTION),
+            (Some(fraction), _) => PicShare::Fraction(fraction),
+            (None, Some(rate)) => PicShare::Rate(rate),
+            (None, None) => PicShare::Fraction(Self::DEFAULT_PIC_FRACTION),
         }
     }
 }
