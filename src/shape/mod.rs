@@ -11,6 +11,7 @@ pub const STENCIL: usize = 3;
 
 /// Interpolation between particles and grid nodes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ShapeFunction {
     /// Linear hat functions: the original material point method (Sulsky, Chen and Schreyer 1994).

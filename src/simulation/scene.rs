@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 /// When the stress is updated within a step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
     /// Update stress first, from the velocities of the step's start (Bardenhagen 2002).
