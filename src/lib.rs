@@ -41,6 +41,8 @@ pub mod ledger;
 pub mod momentum;
 pub mod output;
 pub mod plot;
+#[cfg(test)]
+mod reference;
 pub mod run;
 pub mod scaffold;
 pub mod shape;

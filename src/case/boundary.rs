@@ -3,46 +3,59 @@
 use serde::{Deserialize, Serialize};
 
 use super::schema::Grid;
+use crate::boundary::{Friction, Opening};
 
-/// A rigid boundary as written in the file. Which of the optional fields are required depends on `kind`, `contact` and
-/// `opening`; [`Boundary::shape`] and [`Boundary::contact_law`] give the outcome.
+/// A rigid boundary. Which of its fields are required, and which refused, depends on `kind`, `contact` and `opening`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Boundary {
-    /// Name, not empty, different from that of every other boundary.
+    /// Name. Allowed: not empty, and different from that of every other boundary. Example: `"base"`.
     pub name: String,
-    /// Plane, wall or gate.
+    /// Plane, wall or gate. Example: `"plane"`.
     pub kind: BoundaryKind,
-    /// Plane: a point on its surface, m.
+    /// A point on the surface of a plane. Default: none; required by `kind = "plane"`. Allowed: only with `kind =
+    /// "plane"`; `[x, y]`. Example: `[0.0, 0.0]`.
     pub point_m: Option<[f64; 2]>,
-    /// Plane: direction of the outward normal, into the material, degrees from the x axis, counter-clockwise.
+    /// Direction of the outward normal of a plane, into the material, from the x axis, counter-clockwise. Default:
+    /// none; required by `kind = "plane"`. Allowed: only with `kind = "plane"`; -360 to 360. Example: `90`.
     pub normal_deg: Option<f64>,
-    /// Wall, gate: lower end of the face that meets the material, m.
+    /// Lower end of the face that meets the material. Default: none; required by `kind = "wall"` and `"gate"`. Allowed:
+    /// only with `kind = "wall"` or `"gate"`; `[x, y]`. Example: `[1.2, 0.0]`.
     pub foot_m: Option<[f64; 2]>,
-    /// Wall, gate: distance from foot to crest, m, positive.
+    /// Distance from foot to crest. Default: none; required by `kind = "wall"` and `"gate"`. Allowed: only with `kind =
+    /// "wall"` or `"gate"`; above 0. Example: `0.6`.
     pub height_m: Option<f64>,
-    /// Wall, gate: direction from foot to crest, degrees from the x axis, counter-clockwise. Default 90.
+    /// Direction from foot to crest, from the x axis, counter-clockwise. Default: `90.0`. Allowed: only with `kind =
+    /// "wall"` or `"gate"`; -360 to 360. Example: `120`.
     pub inclination_deg: Option<f64>,
-    /// Wall, gate: the side of the face on which the material is, seen from foot to crest. Default left.
+    /// The side of the face on which the material is, seen from foot to crest. Default: `"left"`. Allowed: only with
+    /// `kind = "wall"` or `"gate"`. Example: `"right"`.
     pub material_side: Option<MaterialSide>,
-    /// Wall, gate: thickness on the side away from the material, m, positive. Default four cells.
+    /// Thickness on the side away from the material. Default: four cells. Allowed: only with `kind = "wall"` or
+    /// `"gate"`; above 0. Example: `0.1`.
     pub thickness_m: Option<f64>,
-    /// Names of the bodies that it acts on. Default all.
+    /// Names of the bodies that it acts on. Default: all bodies. Allowed: at least one name of `[[bodies]]`. Example:
+    /// `["sand"]`.
     pub bodies: Option<Vec<String>>,
-    /// Contact law. Only a clamp holds back material that moves away.
+    /// Contact law. Only a clamp holds back material that moves away. Example: `"coulomb"`.
     pub contact: ContactKind,
-    /// Coulomb friction coefficient (not an angle), not negative; with `coulomb`, and only then.
+    /// Coulomb friction coefficient, not an angle. Default: none; required by `contact = "coulomb"`. Allowed: only with
+    /// `contact = "coulomb"`; 0 or more. Example: `0.4`.
     pub friction: Option<f64>,
-    /// Gate: how it opens. Default vanish.
+    /// How a gate opens. Default: `"vanish"`. Allowed: only with `kind = "gate"`. Example: `"lift"`.
     pub opening: Option<OpeningKind>,
-    /// Gate that lifts or is raised: its speed, m/s, positive. A raised gate without it opens at once.
+    /// Speed of a gate that lifts or is raised. Default: none; required by `opening = "lift"`, and a raised gate without it
+    /// opens at once. Allowed: only with `opening = "lift"` or `"raise"`; above 0. Example: `1.0`.
     pub lift_speed_m_per_s: Option<f64>,
-    /// Gate that is raised: the free height below it at which it is held, m, positive.
+    /// The free height below a raised gate, at which it is held. Default: none; required by `opening = "raise"`.
+    /// Allowed: only with `opening = "raise"`; above 0. Example: `0.05`.
     pub opening_m: Option<f64>,
 }
 
 /// Kind of boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum BoundaryKind {
     /// An infinite half space.
@@ -55,6 +68,7 @@ pub enum BoundaryKind {
 
 /// The side of a wall on which the material is, seen from foot to crest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum MaterialSide {
     /// To the left: at smaller x for a vertical wall.
@@ -66,6 +80,7 @@ pub enum MaterialSide {
 
 /// Contact law as written in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ContactKind {
     /// No friction.
@@ -80,6 +95,7 @@ pub enum ContactKind {
 
 /// How a gate opens, as written in the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum OpeningKind {
     /// Disappears at release.
@@ -122,41 +138,6 @@ pub struct Wall {
     pub thickness_m: f64,
 }
 
-/// How a gate opens.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Opening {
-    /// Disappears at release.
-    Vanish,
-    /// Moves away along its face.
-    Lift {
-        /// Speed, m/s.
-        speed_m_per_s: f64,
-    },
-    /// Moves along its face until `opening_m` is free below it.
-    Raise {
-        /// Speed, m/s; `None`: at once.
-        speed_m_per_s: Option<f64>,
-        /// Free height below the gate, m.
-        opening_m: f64,
-    },
-}
-
-/// Contact law of a boundary.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Contact {
-    /// No friction.
-    Smooth,
-    /// Coulomb friction.
-    Coulomb {
-        /// Friction coefficient.
-        friction: f64,
-    },
-    /// No slip while pressed.
-    Rough,
-    /// No motion at all: a clamp.
-    Bonded,
-}
-
 impl Boundary {
     /// Thickness of walls and gates that give none, in cells.
     pub const DEFAULT_THICKNESS_CELLS: f64 = 4.0;
@@ -170,13 +151,14 @@ impl Boundary {
         }
     }
 
-    /// Contact law; `None` if a required field is missing, which validation refuses.
-    pub fn contact_law(&self) -> Option<Contact> {
+    /// The word of the file and the coefficient beside it as one; `None` if a required field is missing, which validation
+    /// refuses.
+    pub fn contact_law(&self) -> Option<Friction> {
         match self.contact {
-            ContactKind::Smooth => Some(Contact::Smooth),
-            ContactKind::Coulomb => Some(Contact::Coulomb { friction: self.friction? }),
-            ContactKind::Rough => Some(Contact::Rough),
-            ContactKind::Bonded => Some(Contact::Bonded),
+            ContactKind::Smooth => Some(Friction::Smooth),
+            ContactKind::Coulomb => Some(Friction::Coulomb(self.friction?)),
+            ContactKind::Rough => Some(Friction::Rough),
+            ContactKind::Bonded => Some(Friction::Bonded),
         }
     }
 
@@ -198,10 +180,11 @@ impl Boundary {
     fn opening_law(&self) -> Option<Opening> {
         match self.opening.unwrap_or_default() {
             OpeningKind::Vanish => Some(Opening::Vanish),
-            OpeningKind::Lift => Some(Opening::Lift { speed_m_per_s: self.lift_speed_m_per_s? }),
-            OpeningKind::Raise => {
-                Some(Opening::Raise { speed_m_per_s: self.lift_speed_m_per_s, opening_m: self.opening_m? })
-            }
+            OpeningKind::Lift => Some(Opening::Lift { speed: self.lift_speed_m_per_s?, opening: f64::INFINITY }),
+            OpeningKind::Raise => Some(Opening::Lift {
+                speed: self.lift_speed_m_per_s.unwrap_or(f64::INFINITY),
+                opening: self.opening_m?,
+            }),
         }
     }
 

@@ -3,28 +3,34 @@
 use serde::{Deserialize, Serialize};
 
 /// The contact of two bodies. Bodies that no contact names stick to each other where they meet; a body that one names needs one
-/// with every other body.
+/// with every other body. At most eight bodies are in contacts.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BodyContact {
-    /// Names of the two bodies.
+    /// Names of the two bodies. Allowed: two different names of `[[bodies]]`; one contact for two bodies. Example:
+    /// `["barrier", "sand"]`.
     pub bodies: Vec<String>,
-    /// Coulomb friction coefficient (not an angle), not negative.
+    /// Coulomb friction coefficient, not an angle. Allowed: 0 or more. Example: `0.4`.
     pub friction: f64,
-    /// How the direction of the surface between them is found. Default nearest_face.
+    /// How the direction of the surface between them is found. Default: `"nearest_face"`. Example: `"regression"`.
     pub normal: Option<NormalKind>,
-    /// With `nearest_face`: the one of the two that keeps its shape, a barrier for instance. Default the first.
+    /// The one of the two that keeps its shape, a barrier for instance. Default: the first of `bodies`. Allowed: only
+    /// with `normal = "nearest_face"`; one of the two names. Example: `"barrier"`.
     pub structure: Option<String>,
-    /// With `prescribed`: direction out of the first body, degrees from the x axis, counter-clockwise.
+    /// Direction out of the first body, from the x axis, counter-clockwise. Default: none; required by `normal =
+    /// "prescribed"`. Allowed: only with `normal = "prescribed"`; -360 to 360. Example: `90`.
     pub normal_deg: Option<f64>,
-    /// How it is decided whether they touch. Default extents.
+    /// How it is decided whether they touch. Default: `"extents"`. Example: `"positions"`.
     pub gap: Option<GapKind>,
-    /// With `positions`: distance of the mean positions of bodies that touch, in cells, positive. Default 0.8.
+    /// Distance of the mean positions of bodies that touch. Default: `0.8`. Allowed: only with `gap = "positions"`;
+    /// above 0. Example: `1.0`.
     pub offset_cells: Option<f64>,
 }
 
 /// How the direction of the surface between two bodies is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum NormalKind {
     /// From the faces of a structure nearest to the points of the other body.
@@ -42,6 +48,7 @@ pub enum NormalKind {
 
 /// How it is decided whether two bodies touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum GapKind {
     /// From the points nearest to the surface and their size.

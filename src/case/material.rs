@@ -2,34 +2,42 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A material. The fields from `friction_angle_deg` on belong to the Drucker-Prager law and are refused with the other.
+use crate::constitutive::Cone;
+
+/// A material. The keys from `friction_angle_deg` on belong to the Drucker-Prager law and are refused with the others.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Constitutive law.
+    /// Constitutive law. Example: `"drucker_prager"`.
     pub law: Law,
-    /// Bulk density, kg/m^3, positive.
+    /// Bulk density. Allowed: above 0. Example: `1500`.
     pub density_kg_per_m3: f64,
-    /// Young's modulus, Pa, positive.
+    /// Young's modulus. Allowed: above 0. Example: `1.0e6`.
     pub young_pa: f64,
-    /// Poisson's ratio, above -1 and below 0.5.
+    /// Poisson's ratio. Allowed: above -1 and below 0.5. Example: `0.3`.
     pub poisson: f64,
-    /// Mohr-Coulomb friction angle, degrees, in \[0, 90). Required by `drucker_prager`.
+    /// Mohr-Coulomb friction angle. Default: none; required by `law = "drucker_prager"`. Allowed: only with `law =
+    /// "drucker_prager"`; 0 or more and below 90, with `cone = "triaxial_compression"` below 42.2. Example: `31`.
     pub friction_angle_deg: Option<f64>,
-    /// Cohesion, Pa, not negative. Default 0.
+    /// Cohesion. Default: `0.0`. Allowed: only with `law = "drucker_prager"`; 0 or more. Example: `500`.
     pub cohesion_pa: Option<f64>,
-    /// Dilatancy angle, degrees, from 0 to the friction angle. Default 0.
+    /// Dilatancy angle. Default: `0.0`. Allowed: only with `law = "drucker_prager"`; from 0 to `friction_angle_deg`.
+    /// Example: `5`.
     pub dilatancy_angle_deg: Option<f64>,
-    /// How the cone is matched to the Mohr-Coulomb angle. Default `triaxial_compression`.
+    /// How the cone is matched to the Mohr-Coulomb angle. Default: `"triaxial_compression"`. Allowed: only with `law =
+    /// "drucker_prager"`. Example: `"plane_strain"`.
     pub cone: Option<Cone>,
-    /// Largest mean tension, Pa, not negative. Default 0.
+    /// Largest mean tension. Default: `0.0`. Allowed: only with `law = "drucker_prager"`; 0 or more. Example: `100`.
     pub tension_cutoff_pa: Option<f64>,
-    /// Material that separates must close the opened volume before it builds pressure. Default true.
+    /// Material that separates must close the opened volume before it builds pressure. Default: `true`. Allowed: only
+    /// with `law = "drucker_prager"`. Example: `false`.
     pub void_tracking: Option<bool>,
 }
 
 /// Constitutive law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
     /// Linear elasticity with a Drucker-Prager cone.
@@ -38,21 +46,6 @@ pub enum Law {
     LinearElastic,
     /// Neo-Hookean elasticity: for bodies that turn or bend far.
     NeoHookean,
-}
-
-/// How the Drucker-Prager cone is matched to the Mohr-Coulomb angle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Cone {
-    /// Through the triaxial compression corners of the Mohr-Coulomb pyramid.
-    #[default]
-    TriaxialCompression,
-    /// Through its triaxial extension corners.
-    TriaxialExtension,
-    /// The cone that gives the Mohr-Coulomb strength in plane strain.
-    PlaneStrain,
-    /// Equations 3 and 4 of the paper as printed.
-    AsPrinted,
 }
 
 /// The Drucker-Prager parameters of a material, defaults filled in.

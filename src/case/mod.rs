@@ -23,14 +23,14 @@ use std::path::Path;
 
 use thiserror::Error;
 
-pub use boundary::{Boundary, BoundaryKind, Contact, ContactKind, MaterialSide, Opening, OpeningKind, Shape, Wall};
+pub use boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide, OpeningKind, Shape, Wall};
 pub use contact::{BodyContact, GapKind, NormalKind};
 pub use geometry::direction;
-pub use material::{Cone, DruckerPrager, Law, Material};
+pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
     Body, Case, Domain, Gauges, Gravity, Grid, Integration, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics,
-    Output, Pic, Run, Scheme, Settle, ShapeFunction, SideWalls, Stages, Tilt,
+    Output, Run, Settle, SideWalls, Stages, Tilt,
 };
 pub use validate::{Findings, Problem, validate};
 

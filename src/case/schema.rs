@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::boundary::Boundary;
 use super::contact::BodyContact;
 use super::material::Material;
+use crate::shape::ShapeFunction;
+use crate::simulation::{PicShare, Scheme};
 
 /// Most particles a case may have; above this it is refused before any memory is asked for.
 pub const MAX_PARTICLES: f64 = 2.0e7;
@@ -20,9 +22,10 @@ pub const MAX_TIME_STEPS: f64 = 1.0e9;
 
 /// A complete case: what is simulated, how it is measured and with which numerical settings.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// One line that names the case in reports and plots.
+    /// One line that names the case in reports and plots. Allowed: any text. Example: `"Sand against a wall"`.
     pub title: String,
     /// Gravity and the inclination of the flume.
     pub gravity: Gravity,
@@ -30,9 +33,9 @@ pub struct Case {
     pub grid: Grid,
     /// The box outside which material is removed.
     pub domain: Domain,
-    /// Materials by name; bodies refer to them.
+    /// Materials by name; bodies refer to them. At least one.
     pub materials: BTreeMap<String, Material>,
-    /// Rectangles filled with material at the start; at least one.
+    /// Rectangles filled with material at the start. At least one; together at most 2e7 particles.
     pub bodies: Vec<Body>,
     /// Rigid planes, walls and gates.
     #[serde(default)]
@@ -58,56 +61,48 @@ pub struct Case {
 
 /// Gravity, in the frame of the flume: x runs down the bed, y is perpendicular to it.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Gravity {
-    /// Magnitude, m/s^2, not negative. Default 9.81.
+    /// Magnitude. Default: `9.81`. Allowed: 0 or more; above 0 with `[stages.settle]`. Example: `9.81`.
     #[serde(default = "default_gravity_magnitude")]
     pub magnitude_m_per_s2: f64,
-    /// Angle of the x axis below the horizontal during the run, degrees, in \[-90, 90\].
+    /// Angle of the x axis below the horizontal during the run. Allowed: -90 to 90. Example: `40`.
     pub inclination_deg: f64,
-    /// The same angle while the material settles, degrees, in \[-90, 90\]. Default: `inclination_deg`.
+    /// The same angle while the material settles. Default: that of `inclination_deg`. Allowed: -90 to 90; another than
+    /// `inclination_deg` only with `[stages.tilt]`. Example: `0`.
     pub settle_inclination_deg: Option<f64>,
 }
 
 /// Background grid.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Grid {
-    /// Cell size h, m, positive.
+    /// Cell size h. Allowed: above 0; at most 2e7 particles and 5e7 cells in the domain. Example: `0.01`.
     pub spacing_m: f64,
-    /// Width of the channel, perpendicular to the plane of the simulation, m, positive.
+    /// Width of the channel, perpendicular to the plane of the simulation. Allowed: above 0. Example: `0.2`.
     pub thickness_m: f64,
-    /// Interpolation between particles and grid nodes. Default `ugimp`.
+    /// Interpolation between particles and grid nodes. Default: `"ugimp"`.
     #[serde(default)]
     pub shape_function: ShapeFunction,
-    /// Particles in a full cell: 1, 4, 9 or 16. Default 4.
+    /// Particles in a full cell. Default: `4`. Allowed: 1, 4, 9 or 16. Example: `9`.
     #[serde(default = "default_particles_per_cell")]
     pub particles_per_cell: u32,
-    /// Place of a node, m, \[x, y\]. Default \[0, 0\]; another place says how much a result owes to the grid's.
+    /// Place of a node, `[x, y]`. Another place says how much a result owes to the grid's. Default: `[0.0, 0.0]`.
+    /// Allowed: each from -h to h, where h is `spacing_m`. Example: `[0.004, -0.002]`.
     #[serde(default)]
     pub origin_m: [f64; 2],
 }
 
-/// Interpolation between particles and grid nodes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ShapeFunction {
-    /// Linear hat functions of a point particle (the original MPM).
-    Linear,
-    /// Uniform generalised interpolation: hat functions averaged over the particle's initial square.
-    #[default]
-    Ugimp,
-    /// Quadratic B-splines.
-    Bspline,
-}
-
 /// The box that holds the simulation. Material that leaves it is removed, counted and reported.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Domain {
-    /// Least and greatest x, m.
+    /// Least and greatest x. Allowed: `[low, high]` with low < high. Example: `[-0.4, 1.8]`.
     pub x_m: [f64; 2],
-    /// Least and greatest y, m.
+    /// Least and greatest y. Allowed: `[low, high]` with low < high. Example: `[-0.1, 1.5]`.
     pub y_m: [f64; 2],
 }
 
@@ -116,45 +111,52 @@ pub struct Domain {
 /// Particles sit on a square lattice of spacing h / sqrt(particles per cell) in the axes of the rectangle, the first one
 /// half a spacing inside its lower left corner.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Name, not empty, different from that of every other body.
+    /// Name. Allowed: not empty, and different from that of every other body. Example: `"sand"`.
     pub name: String,
-    /// Name of a material in `materials`.
+    /// Name of its material. Allowed: the name of one of `[materials.NAME]`. Example: `"sand"`.
     pub material: String,
-    /// Left and right edge before rotation, m, increasing.
+    /// Left and right edge before rotation. Allowed: `[low, high]` with low < high; the body inside the domain, outside
+    /// boundaries that act on it (but clamps) and other bodies, or touching them. Example: `[-0.2, 0.0]`.
     pub x_m: [f64; 2],
-    /// Lower and upper edge before rotation, m, increasing.
+    /// Lower and upper edge before rotation. Allowed: as `x_m`; both sides at least half the spacing of the particles.
+    /// Example: `[0.0, 0.5]`.
     pub y_m: [f64; 2],
-    /// Rotation about the corner (x_m\[0\], y_m\[0\]), degrees, counter-clockwise, in \[-360, 360\]. Default 0.
+    /// Rotation about the corner (`x_m[0]`, `y_m[0]`), counter-clockwise. Default: `0.0`. Allowed: -360 to 360.
+    /// Example: `60`.
     #[serde(default)]
     pub rotation_deg: f64,
-    /// Velocity at the start, m/s, \[x, y\]. Default zero.
+    /// Velocity at the start, `[x, y]`. Default: `[0.0, 0.0]`. Allowed: any. Example: `[1.5, 0.0]`.
     #[serde(default)]
     pub velocity_m_per_s: [f64; 2],
-    /// Particles of this body per grid cell: 1, 4, 9 or 16. Default that of the grid.
+    /// Particles of this body in a full cell. Default: that of `[grid]`. Allowed: 1, 4, 9 or 16. Example: `16`.
     pub particles_per_cell: Option<u32>,
-    /// Largest displacement of a particle from its lattice, in either direction and at random, as a share of the lattice's
-    /// spacing, in \[0, 0.5\]. Default 0; another packing says how much a result owes to the lattice.
+    /// Largest displacement of a particle from its lattice, in either direction and at random, as a share of the
+    /// lattice's spacing. Another packing says how much a result owes to the lattice. Default: `0.0`. Allowed: 0 to
+    /// 0.5. Example: `0.2`.
     #[serde(default)]
     pub jitter: f64,
-    /// Which of the random packings. Default 0.
+    /// Which of the random packings. Default: `0`. Allowed: a whole number from 0 to 4294967295. Example: `3`.
     #[serde(default)]
     pub jitter_seed: u32,
-    /// Whether gravity leaves the body alone, as a barrier whose density is not known may need; only for bodies in
-    /// `contacts`. Default false.
+    /// Whether gravity leaves the body alone, as a barrier whose density is not known may need. Default: `false`.
+    /// Allowed: true only for a body in `[[contacts]]`. Example: `true`.
     #[serde(default)]
     pub weightless: bool,
-    /// How it moves through a time step. Default explicit.
+    /// How it moves through a time step. Default: `"explicit"`. Allowed: `"implicit"` only for a body in `[[contacts]]`
+    /// with an elastic law, on which no boundary but clamps acts. Example: `"implicit"`.
     #[serde(default)]
     pub integration: Integration,
-    /// The mass the body is meant to have, kg, positive. A check, not an input: refused unless density x area x thickness
-    /// gives it to 0.1 %.
+    /// The mass the body is meant to have. A check, not an input. Default: none. Allowed: above 0, and density x area x
+    /// thickness to 0.1 %. Example: `30`.
     pub mass_kg: Option<f64>,
 }
 
 /// How a body moves through a time step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Integration {
     /// As everything else: its P-wave limits the time step of all.
@@ -167,11 +169,13 @@ pub enum Integration {
 
 /// The channel's two side walls, whose friction is averaged over its width.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct SideWalls {
-    /// Coulomb friction coefficient, not negative. Default 0 (no side walls).
+    /// Coulomb friction coefficient; 0 for no side walls. Default: `0.0`. Allowed: 0 or more. Example: `0.3`.
     pub friction: f64,
-    /// Names of the bodies that touch them. Default all.
+    /// Names of the bodies that touch them. Default: all bodies. Allowed: at least one name of `[[bodies]]`. Example:
+    /// `["sand"]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bodies: Option<Vec<String>>,
 }
@@ -185,11 +189,13 @@ impl SideWalls {
 
 /// The stages of a run, in the order in which they happen.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Stages {
     /// Settling under gravity with the gate closed. Left out: the run starts from zero stress.
     pub settle: Option<Settle>,
-    /// Tilting from `settle_inclination_deg` to `inclination_deg`. Left out: settles at `inclination_deg` directly.
+    /// Tilting from `settle_inclination_deg` to `inclination_deg`, only with `[stages.settle]`. Left out: settles at
+    /// `inclination_deg` directly.
     pub tilt: Option<Tilt>,
     /// The run; the gate opens and the clock starts at its beginning.
     pub run: Run,
@@ -197,53 +203,64 @@ pub struct Stages {
 
 /// Settling under gravity with damping.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Settle {
-    /// Rate at which the damping removes momentum, 1/s, not negative.
+    /// Rate at which the damping removes momentum. Allowed: 0 or more. Example: `60`.
     pub damping_per_s: f64,
-    /// The stage ends when rms speed / sqrt(g x height of the body) falls below this; positive.
+    /// The stage ends when rms speed / sqrt(g x height of the body) falls below this. Allowed: above 0. Example:
+    /// `1.0e-4`.
     pub residual: f64,
-    /// An error if the residual is not reached by this time, s, positive.
+    /// An error if the residual is not reached by this time. Allowed: above 0. Example: `5.0`.
     pub max_time_s: f64,
 }
 
 /// Tilting of the flume, followed by a second settling.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Tilt {
-    /// Time over which the direction of gravity turns at a steady rate, s, positive.
+    /// Time over which the direction of gravity turns at a steady rate. Allowed: above 0. Example: `0.5`.
     pub duration_s: f64,
 }
 
 /// The run itself.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Run {
-    /// The run ends at this time after the gate opens, s, positive.
+    /// The run ends at this time after the gate opens. Allowed: above 0; at most 1e9 time steps, 1e8 samples and 1e5
+    /// VTK files. Example: `6.0`.
     pub end_time_s: f64,
-    /// End earlier, when the kinetic energy is below 1e-4 of what was released, forces balance to 0.2 % of the weight and the
-    /// force on the barrier is steady. Default true.
+    /// End earlier, when the kinetic energy is below 1e-4 of what was released, forces balance to 0.2 % of the weight
+    /// and the force on the barrier is steady. Default: `true`.
     #[serde(default = "yes")]
     pub stop_at_rest: bool,
 }
 
 /// What is measured during the run. Every field may be left out.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Gauges {
-    /// Name of the boundary, or of the body in `contacts`, whose force is measured.
+    /// Name of the boundary, or of the body, whose force is measured. Default: none. Allowed: the name of one of
+    /// `[[boundaries]]`, or of a body in `[[contacts]]`, and not of both. Example: `"barrier"`.
     pub barrier: Option<String>,
-    /// Name of the boundary whose friction holds the deposit.
+    /// Name of the boundary whose friction holds the deposit. Default: none. Allowed: the name of one of
+    /// `[[boundaries]]`. Example: `"base"`.
     pub base: Option<String>,
-    /// Samples per second, Hz, positive; a sample is the mean over its interval. Default 1000.
+    /// Samples per second; a sample is the mean over its interval. Default: `1000.0`. Allowed: above 0; at most 1e8
+    /// samples in a run. Example: `500`.
     pub sample_rate_hz: f64,
-    /// Flow depth and velocity are recorded at these x, m, inside the domain. Default none.
+    /// Flow depth and velocity are recorded at these x. Default: `[]`. Allowed: any number of x inside the domain.
+    /// Example: `[0.5, 0.7]`.
     pub stations_m: Vec<f64>,
-    /// Least and greatest x of the velocity field, m, inside the domain. Given together with `window_y_m` or not at all.
+    /// Least and greatest x of the velocity field. Default: none. Allowed: `[low, high]` with low < high, inside the
+    /// domain; together with `window_y_m` or not at all. Example: `[0.7, 1.2]`.
     pub window_x_m: Option<[f64; 2]>,
-    /// Least and greatest y of the velocity field, m, inside the domain.
+    /// Least and greatest y of the velocity field. Default: none. Allowed: as `window_x_m`. Example: `[0.0, 0.6]`.
     pub window_y_m: Option<[f64; 2]>,
-    /// Times of the snapshots, s, increasing, from 0 to `end_time_s`. Default none.
+    /// Times of the snapshots. Default: `[]`. Allowed: increasing, from 0 to `end_time_s`. Example: `[0.0, 0.5, 1.0]`.
     pub field_times_s: Vec<f64>,
 }
 
@@ -263,9 +280,11 @@ impl Default for Gauges {
 
 /// Files written besides the results.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between VTK files, s; 0 writes none. Default 0.02.
+    /// Time between VTK files; 0 writes none. Default: `0.02`. Allowed: 0 or more; at most 1e5 files in a run. Example:
+    /// `0`.
     pub vtk_interval_s: f64,
 }
 
@@ -277,17 +296,21 @@ impl Default for Output {
 
 /// Numerical settings.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Numerics {
-    /// Order of the stress update in a step. Default `musl`.
+    /// Order of the stress update in a step. Default: `"musl"`.
     pub scheme: Scheme,
-    /// Time step as a share of h / (P-wave speed + particle speed), in (0, 1\]. Default 0.3.
+    /// Time step as a share of h / (P-wave speed + particle speed). Default: `0.3`. Allowed: above 0, at most 1.
+    /// Example: `0.2`.
     pub cfl: f64,
-    /// Share of the PIC velocity update in each step, in \[0, 1\]; excludes `pic_rate_per_s`. Default 5e-4.
+    /// Share of the PIC velocity update in each step. Default: `5.0e-4`, or none where `pic_rate_per_s` is given.
+    /// Allowed: 0 to 1; not together with `pic_rate_per_s`. Example: `1.0e-3`.
     pub pic_fraction: Option<f64>,
-    /// The same per second, 1/s, not negative: independent of the time step.
+    /// The same per second, independent of the time step. Default: none. Allowed: 0 or more; not together with
+    /// `pic_fraction`. Example: `5.0`.
     pub pic_rate_per_s: Option<f64>,
-    /// Upper bound of the time step, s, positive. Default none.
+    /// Upper bound of the time step. Default: none. Allowed: above 0. Example: `1.0e-4`.
     pub max_time_step_s: Option<f64>,
 }
 
@@ -297,38 +320,16 @@ impl Default for Numerics {
     }
 }
 
-/// Order of the stress update in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Scheme {
-    /// Update stress first.
-    Usf,
-    /// Update stress last.
-    Usl,
-    /// Modified update stress last: grid velocities are mapped back from the particles before the stress update.
-    #[default]
-    Musl,
-}
-
-/// How much of the PIC velocity update is mixed into FLIP.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pic {
-    /// This share in each step.
-    FractionPerStep(f64),
-    /// This rate per second.
-    RatePerSecond(f64),
-}
-
 impl Numerics {
     /// `pic_fraction` when none is given, as in the paper.
     pub const DEFAULT_PIC_FRACTION: f64 = 5.0e-4;
 
     /// The PIC share in force.
-    pub fn pic(&self) -> Pic {
+    pub fn pic(&self) -> PicShare {
         match (self.pic_fraction, self.pic_rate_per_s) {
-            (Some(fraction), _) => Pic::FractionPerStep(fraction),
-            (None, Some(rate)) => Pic::RatePerSecond(rate),
-            (None, None) => Pic::FractionPerStep(Self::DEFAULT_PIC_FRACTION),
+            (Some(fraction), _) => PicShare::Fraction(fraction),
+            (None, Some(rate)) => PicShare::Rate(rate),
+            (None, None) => PicShare::Fraction(Self::DEFAULT_PIC_FRACTION),
         }
     }
 }

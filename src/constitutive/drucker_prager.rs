@@ -2,14 +2,18 @@
 
 use super::elastic::LinearElastic;
 use super::{Increment, Law, PointState, Stress, cayley, midpoint_work};
+use serde::{Deserialize, Serialize};
 
 /// How the cone is matched to the Mohr-Coulomb friction angle.
 ///
 /// The name says where the two agree; everywhere else the cone is stronger or weaker than Mohr-Coulomb. A cone matched in
 /// triaxial compression at 31 degrees acts as 45.9 degrees in plane strain without dilatancy.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Cone {
     /// Through the compression meridian ("outer cone"): q = 6 sin(phi) / (sqrt(3) (3 - sin(phi))).
+    #[default]
     TriaxialCompression,
     /// Through the extension meridian ("inner cone"): q = 6 sin(phi) / (sqrt(3) (3 + sin(phi))).
     TriaxialExtension,

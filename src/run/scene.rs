@@ -1,13 +1,12 @@
 //! From a validated case to a scene.
 
 use crate::body::{Body, Particle};
-use crate::boundary::{Boundary, Friction, Opening};
+use crate::boundary::{Boundary, Friction};
 use crate::case::{self, Case};
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic, NeoHookean};
+use crate::constitutive::{AnyLaw, DruckerPrager, LinearElastic, NeoHookean};
 use crate::contact::rule::{ContactRule, GapRule, NormalRule};
 use crate::grid::Lattice;
-use crate::shape::ShapeFunction;
-use crate::simulation::{Numerics, PicShare, Scene, Scheme};
+use crate::simulation::{Numerics, Scene};
 use nalgebra::Vector2;
 
 /// Builds the scene of a case that has passed validation, with gravity as it is while the material settles.
@@ -80,12 +79,7 @@ fn law(material: &case::Material) -> AnyLaw {
         None => AnyLaw::LinearElastic(elastic),
         Some(dp) => AnyLaw::DruckerPrager(DruckerPrager::new(
             elastic,
-            match dp.cone {
-                case::Cone::TriaxialCompression => Cone::TriaxialCompression,
-                case::Cone::TriaxialExtension => Cone::TriaxialExtension,
-                case::Cone::PlaneStrain => Cone::PlaneStrain,
-                case::Cone::AsPrinted => Cone::AsPrinted,
-            },
+            dp.cone,
             dp.friction_angle_deg.to_radians(),
             dp.dilatancy_angle_deg.to_radians(),
             dp.cohesion_pa,
@@ -120,12 +114,7 @@ pub fn barrier_face(case: &Case, name: &str) -> Option<Boundary> {
 
 /// `None` only for a boundary that validation refuses.
 fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
-    let friction = match b.contact_law()? {
-        case::Contact::Smooth => Friction::Smooth,
-        case::Contact::Coulomb { friction } => Friction::Coulomb(friction),
-        case::Contact::Rough => Friction::Rough,
-        case::Contact::Bonded => Friction::Bonded,
-    };
+    let friction = b.contact_law()?;
     let wall = |w: case::Wall| {
         let wall =
             Boundary::wall(&b.name, w.foot_m.into(), direction(w.inclination_deg), w.height_m, w.thickness_m, friction);
@@ -140,18 +129,13 @@ fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
             Boundary::plane(&b.name, point_m.into(), direction(normal_deg), friction)
         }
         case::Shape::Wall(w) => wall(w),
-        case::Shape::Gate(w, opening) => wall(w).gate(match opening {
-            case::Opening::Vanish => Opening::Vanish,
-            case::Opening::Lift { speed_m_per_s } => Opening::Lift { speed: speed_m_per_s, opening: f64::INFINITY },
-            case::Opening::Raise { speed_m_per_s, opening_m } => {
-                Opening::Lift { speed: speed_m_per_s.unwrap_or(f64::INFINITY), opening: opening_m }
-            }
-        }),
+        case::Shape::Gate(w, opening) => wall(w).gate(opening),
     };
     Some(boundary.only_for(&named))
 }
 
-/// `None` only for a contact that validation refuses.
+/// `None` only for a contact that validation refuses. A rule of the solver carries what the file writes in keys beside the word:
+/// which of the two bodies is the structure, the vector of an angle, a distance. So the words of the file stay apart from it.
 fn contact(case: &Case, c: &case::BodyContact) -> Option<ContactRule> {
     let bodies = [index(case, c.bodies.first()?)?, index(case, c.bodies.get(1)?)?];
     let normal = match c.normal.unwrap_or_default() {
@@ -187,22 +171,11 @@ fn direction(angle_deg: f64) -> Vector2<f64> {
 fn numerics(case: &Case) -> Numerics {
     let n = &case.numerics;
     Numerics {
-        scheme: match n.scheme {
-            case::Scheme::Usf => Scheme::Usf,
-            case::Scheme::Usl => Scheme::Usl,
-            case::Scheme::Musl => Scheme::Musl,
-        },
-        shape: match case.grid.shape_function {
-            case::ShapeFunction::Linear => ShapeFunction::Linear,
-            case::ShapeFunction::Ugimp => ShapeFunction::Ugimp,
-            case::ShapeFunction::Bspline => ShapeFunction::Bspline,
-        },
+        scheme: n.scheme,
+        shape: case.grid.shape_function,
         cfl: n.cfl,
         max_time_step: n.max_time_step_s.unwrap_or(f64::INFINITY),
-        pic: match n.pic() {
-            case::Pic::FractionPerStep(fraction) => PicShare::Fraction(fraction),
-            case::Pic::RatePerSecond(rate) => PicShare::Rate(rate),
-        },
+        pic: n.pic(),
     }
 }
 

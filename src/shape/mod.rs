@@ -4,15 +4,20 @@
 //! stencil. The quadratic B-spline is the uGIMP function of a particle domain that is one cell wide (both are the hat function
 //! averaged over a box), so the two share their code; the hat itself is the limit of a domain of no width.
 
+use serde::{Deserialize, Serialize};
+
 /// Nodes of the stencil in each direction.
 pub const STENCIL: usize = 3;
 
-/// The shape functions a user can choose from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Interpolation between particles and grid nodes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum ShapeFunction {
     /// Linear hat functions: the original material point method (Sulsky, Chen and Schreyer 1994).
     Linear,
     /// Uniform generalised interpolation: the hat averaged over an undeforming particle domain (Bardenhagen and Kober 2004).
+    #[default]
     Ugimp,
     /// Quadratic B-spline (Steffen, Kirby and Berzins 2008).
     Bspline,

@@ -5,16 +5,20 @@ use crate::boundary::Boundary;
 use crate::contact::rule::ContactRule;
 use crate::grid::Lattice;
 use crate::shape::ShapeFunction;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// When the stress is updated within a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Scheme {
     /// Update stress first, from the velocities of the step's start (Bardenhagen 2002).
     Usf,
     /// Update stress last, from the new nodal velocities.
     Usl,
     /// Modified update stress last, from the new point velocities mapped back to the grid (Sulsky, Zhou and Schreyer 1995).
+    #[default]
     Musl,
 }
 

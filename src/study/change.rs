@@ -6,13 +6,19 @@ use toml::{Table, Value};
 /// What is changed in a case. Fields are named by their path, `materials.sand.young_pa`; an element of a list is found by its
 /// `name`, `boundaries.gate.opening`.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Change {
-    /// Fields and their new values.
+    /// Fields and their new values. Default: none. Allowed: paths in the case, quoted, and values as in a case file.
+    /// Example: `{ "materials.sand.young_pa" = 2.0e6 }`.
+    #[cfg_attr(test, schemars(with = "serde_json::Map<String, serde_json::Value>"))]
     pub set: Table,
-    /// Fields that are taken out.
+    /// Fields that are taken out. Default: none. Allowed: paths of fields that stand in the case. Example:
+    /// `["bodies.sand.mass_kg"]`.
     pub unset: Vec<String>,
-    /// Lists and the elements that are added to them.
+    /// Lists and the elements that are added to them. Default: none. Allowed: paths of lists, quoted, and lists of
+    /// values. Example: `{ "gauges.stations_m" = [0.9] }`.
+    #[cfg_attr(test, schemars(with = "serde_json::Map<String, serde_json::Value>"))]
     pub append: Table,
 }
 

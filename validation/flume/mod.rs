@@ -19,7 +19,8 @@ pub mod verdict;
 
 use super::watch::watched;
 use super::{Context, Failure, Validation};
-use checkdam::case::{Case, Contact, parse};
+use checkdam::boundary::Friction;
+use checkdam::case::{Case, parse};
 use checkdam::plot::PlotError;
 use checkdam::run::{Experiment, Records, Summary, files, run_in_memory};
 use checkdam::study::quantities::{QUANTITIES, measure};
@@ -73,7 +74,7 @@ impl Flume {
 pub(super) fn base_friction(case: &Case) -> f64 {
     let base = case.boundaries.iter().find(|b| Some(&b.name) == case.gauges.base.as_ref());
     match base.and_then(|b| b.contact_law()) {
-        Some(Contact::Coulomb { friction }) => friction,
+        Some(Friction::Coulomb(friction)) => friction,
         _ => f64::NAN,
     }
 }
@@ -102,7 +103,7 @@ pub(super) fn read_case(name: &str) -> std::io::Result<String> {
 fn make_faulty(case: &mut Case, fault: &Fault) {
     case.gravity.magnitude_m_per_s2 *= fault.gravity;
     for b in &mut case.boundaries {
-        if let Some(Contact::Coulomb { friction }) = b.contact_law() {
+        if let Some(Friction::Coulomb(friction)) = b.contact_law() {
             b.friction = Some(friction * fault.friction);
         }
     }

@@ -4,6 +4,9 @@ use std::path::Path;
 
 use super::suggest::{edit_distance, nearest};
 use super::*;
+use crate::boundary::{Friction, Opening};
+use crate::shape::ShapeFunction;
+use crate::simulation::{PicShare, Scheme};
 
 mod bad_input;
 mod contacts;
@@ -69,7 +72,7 @@ fn defaults_are_filled_in_and_shown() {
     );
     assert_eq!((case.grid.shape_function, case.grid.particles_per_cell), (ShapeFunction::Ugimp, 4));
     assert_eq!((case.numerics.scheme, case.numerics.cfl), (Scheme::Musl, 0.3));
-    assert_eq!(case.numerics.pic(), Pic::FractionPerStep(5.0e-4));
+    assert_eq!(case.numerics.pic(), PicShare::Fraction(5.0e-4));
     assert_eq!(case.output.vtk_interval_s, 0.02);
     assert_eq!(case.gauges, Gauges::default());
     assert!(case.stages.run.stop_at_rest);
@@ -81,7 +84,7 @@ fn defaults_are_filled_in_and_shown() {
         thickness_m: 0.4,
     };
     assert_eq!(case.boundaries[0].shape(&case.grid), Some(Shape::Gate(wall, Opening::Vanish)));
-    assert_eq!(case.boundaries[0].contact_law(), Some(Contact::Rough));
+    assert_eq!(case.boundaries[0].contact_law(), Some(Friction::Rough));
     assert_eq!(wall.normal(), [-1.0, 0.0]);
     assert_eq!(wall.corners_m(), [[1.0, 0.0], [1.0, 1.0], [1.4, 1.0], [1.4, 0.0]]);
     let wave_speed = (1.0e8_f64 * 0.8 / (1.2 * 0.6) / 2000.0).sqrt();

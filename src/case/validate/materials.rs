@@ -1,8 +1,9 @@
 //! Materials.
 
 use super::{Checker, text};
-use crate::case::material::{Cone, Law, Material};
+use crate::case::material::{Law, Material};
 use crate::case::path::KeyPath;
+use crate::constitutive::Cone;
 
 impl Checker<'_> {
     pub(super) fn materials(&mut self) {

@@ -1,0 +1,276 @@
+//! The reference is complete, true, and what is committed.
+
+use super::markdown::{Field, Section, page, sections};
+use super::schema::{Schema, Shape};
+use crate::case::{self, Case};
+use crate::study::Study;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+const CASE_HEAD: &str = "\
+# Keys of a case file
+
+All keys of a case, with their meanings. `checkdam check CASE.toml` says what is wrong with a file, and on which line.
+
+The unit of a number is the end of its key. Every number must be finite. A key that is not on this page is refused.
+[`examples/wall.toml`](../../examples/wall.toml) is a short case, [`validation/flume/40deg.toml`](../../validation/flume/40deg.toml) a long one.
+
+Editors that know Taplo (Even Better TOML in VS Code, for one) complete and explain these keys when the first line of the file
+names the [schema](case.schema.json), relative to the file: `#:schema ../../docs/reference/case.schema.json`.
+
+This page is made from the doc comments in `src/case`; `cargo reference` writes it anew.
+";
+
+const STUDY_HEAD: &str = "\
+# Keys of a study file
+
+All keys of a study: many runs that differ in a few fields of a [case](case.md). `checkdam study STUDY.toml` works them off.
+
+Fields of a case are named by their paths: `materials.sand.young_pa`. An element of a list is found by its name:
+`boundaries.gate.opening`. All of `[[axis]]`, `[[variant]]` and `[sample]` may be given: their runs are added up.
+
+Editors that know Taplo (Even Better TOML in VS Code, for one) complete and explain these keys when the first line of the file
+names the [schema](study.schema.json), relative to the file: `#:schema ../../../docs/reference/study.schema.json`.
+
+This page is made from the doc comments in `src/study`; `cargo reference` writes it anew.
+";
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn case_schema() -> Schema {
+    Schema::of::<Case>("checkdam case")
+}
+
+fn study_schema() -> Schema {
+    Schema::of::<Study>("checkdam study")
+}
+
+fn both() -> [(&'static str, Schema, &'static str); 2] {
+    [("case", case_schema(), CASE_HEAD), ("study", study_schema(), STUDY_HEAD)]
+}
+
+fn values(sections: &[Section]) -> impl Iterator<Item = (&Section, &Field)> {
+    sections.iter().flat_map(|s| s.fields.iter().filter(|f| f.shape == Shape::Value).map(move |f| (s, f)))
+}
+
+/// A value as it would be written in a file; `None` if the text is none.
+fn literal(text: &str) -> Option<toml::Value> {
+    toml::from_str::<toml::Table>(&format!("value = {text}")).ok()?.remove("value")
+}
+
+/// The default that a doc comment states as a value: the first words in backticks, if they are one.
+fn stated(field: &Field) -> Option<toml::Value> {
+    literal(field.stated_default.strip_prefix('`')?.split_once('`')?.0)
+}
+
+/// Numbers are equal if their values are: 4 and 4.0.
+fn same(a: &toml::Value, b: &toml::Value) -> bool {
+    use toml::Value::{Array, Float, Integer};
+    match (a, b) {
+        (Integer(a), Float(b)) | (Float(b), Integer(a)) => *a as f64 == *b,
+        (Array(a), Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
+        _ => a == b,
+    }
+}
+
+#[test]
+fn what_is_committed_is_what_the_doc_comments_say() {
+    let writes = std::env::var_os("CHECKDAM_REPORTS").is_some();
+    for (name, schema, head) in both() {
+        let json = serde_json::to_string_pretty(&schema.0).expect("JSON") + "\n";
+        for (file, text) in [(format!("{name}.md"), page(&schema, head)), (format!("{name}.schema.json"), json)] {
+            let path = root().join("docs/reference").join(&file);
+            if writes {
+                std::fs::write(&path, &text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+            }
+            let committed = std::fs::read_to_string(&path).unwrap_or_default();
+            let line = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(0) + 1;
+            assert!(
+                committed == text,
+                "docs/reference/{file}, line {line}, is not up to date: `cargo reference` writes it"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_key_is_explained() {
+    for (name, schema, head) in both() {
+        let page = page(&schema, head);
+        let sections = sections(&schema);
+        assert!(sections.iter().map(|s| s.fields.len()).sum::<usize>() > 35, "{name}");
+        for section in &sections {
+            assert!(!section.meaning.is_empty(), "{name}: the table {} has no meaning", section.header);
+            assert!(page.contains(&section.header));
+            for field in &section.fields {
+                let what = format!("{name}: {} {}", section.header, field.key);
+                assert!(page.contains(&format!("| `{}` |", field.key)), "{what} is not on the page");
+                assert!(field.meaning.len() > 3 && field.meaning.ends_with('.'), "{what}: {}", field.meaning);
+                let rust = ["[`", "::", "\\["];
+                assert!(!rust.iter().any(|r| field.meaning.contains(r)), "{what}: {}", field.meaning);
+            }
+        }
+        for (section, field) in values(&sections) {
+            let what = format!("{name}: {} {}", section.header, field.key);
+            assert!(!field.allowed.is_empty(), "{what} does not say what is allowed");
+            assert!(field.required || !field.stated_default.is_empty(), "{what} does not say what it is when left out");
+            assert!(!field.required || field.stated_default.is_empty(), "{what} is required and states a default");
+            for (word, meaning) in &field.words {
+                assert!(!meaning.is_empty(), "{what}: {word} has no meaning");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_example_is_a_value_of_its_key() {
+    for (name, schema, _) in both() {
+        for (section, field) in values(&sections(&schema)) {
+            let what = format!("{name}: {} {} = {}", section.header, field.key, field.example);
+            let value = literal(&field.example).unwrap_or_else(|| panic!("{what} is not TOML"));
+            assert_eq!(schema.misfits(&field.node, &value, &what), Vec::<String>::new());
+        }
+    }
+}
+
+/// Everything that has a default, and nothing else, but where another key requires it.
+const SMALL: &str = r#"
+    title = "defaults"
+    gravity = { inclination_deg = 10 }
+    grid = { spacing_m = 0.1, thickness_m = 1 }
+    domain = { x_m = [0, 2], y_m = [0, 1] }
+    materials.sand = { law = "drucker_prager", density_kg_per_m3 = 2000, young_pa = 1e8, poisson = 0.2, friction_angle_deg = 30 }
+    bodies = [{ name = "a", material = "sand", x_m = [0, 1], y_m = [0, 0.5] }, { name = "b", material = "sand", x_m = [1, 2], y_m = [0, 0.5] }, { name = "c", material = "sand", x_m = [0, 1], y_m = [0.5, 1] }]
+    boundaries = [{ name = "gate", kind = "gate", foot_m = [2, 0], height_m = 1, contact = "rough" }]
+    contacts = [{ bodies = ["a", "b"], friction = 0.1 }, { bodies = ["a", "c"], friction = 0.1, gap = "positions" }, { bodies = ["b", "c"], friction = 0.1 }]
+    stages.run = { end_time_s = 1 }
+"#;
+
+#[test]
+fn stated_defaults_are_those_in_force() {
+    let loaded = case::parse(SMALL, "small.toml").unwrap_or_else(|e| panic!("{e}"));
+    let resolved = toml::Value::try_from(&loaded.case).expect("TOML");
+    let written: toml::Value = toml::from_str(SMALL).expect("TOML");
+    for (name, schema, _) in both() {
+        for (section, field) in values(&sections(&schema)) {
+            let Some(stated) = stated(field) else { continue };
+            let what = format!("{name}: {} {} = {stated} by default", section.header, field.key);
+            // Serde's own.
+            if let Some(default) = &field.default {
+                let default = literal(&default.to_string()).unwrap_or_else(|| panic!("{what}: {default}"));
+                assert!(same(&default, &stated), "{what}, but serde has {default}");
+            } else {
+                assert_eq!(name, "case", "{what}, and nothing says so");
+            }
+            // What a case has that leaves the key out.
+            if name == "case" {
+                let header = section.header.trim_matches(['[', ']']).replace("NAME", "sand");
+                let all = |value| tables(value, &header);
+                let left_out = all(&resolved).into_iter().zip(all_or_empty(&written, &header, all(&resolved).len()));
+                let found: Vec<_> = left_out
+                    .filter(|(_, written)| written.is_none_or(|table| table.get(&field.key).is_none()))
+                    .filter_map(|(table, _)| table.get(&field.key))
+                    .collect();
+                assert!(!found.is_empty(), "{what}, and no case shows it");
+                found.iter().for_each(|value| assert!(same(value, &stated), "{what}, but it is {value}"));
+            }
+        }
+    }
+}
+
+/// The tables under a header: one, or the elements of a list.
+fn tables<'a>(value: &'a toml::Value, header: &str) -> Vec<&'a toml::Value> {
+    let mut now = vec![value];
+    for word in header.split('.').filter(|word| !word.is_empty()) {
+        now = now.into_iter().filter_map(|v| v.get(word)).collect();
+        now = now.into_iter().flat_map(|v| v.as_array().map_or(vec![v], |list| list.iter().collect())).collect();
+    }
+    now
+}
+
+/// The same of a file that may leave a table out.
+fn all_or_empty<'a>(value: &'a toml::Value, header: &str, count: usize) -> Vec<Option<&'a toml::Value>> {
+    let mut found: Vec<_> = tables(value, header).into_iter().map(Some).collect();
+    found.resize(count, None);
+    found
+}
+
+fn toml_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files.extend(toml_files(&path));
+        } else if path.extension().is_some_and(|end| end == "toml") && !path.ends_with("Cargo.toml") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn every_key_of_the_shipped_files_is_in_the_schema() {
+    let (case, study) = (case_schema(), study_schema());
+    let (mut cases, mut studies, mut paths) = (0, 0, BTreeSet::new());
+    for file in ["validation", "examples"].iter().flat_map(|folder| toml_files(&root().join(folder))) {
+        let text = std::fs::read_to_string(&file).expect("a file");
+        let value: toml::Value = toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+        let is_study = value.get("cases").is_some();
+        let schema = if is_study { &study } else { &case };
+        let misfits = schema.misfits(&schema.0, &value, &file.display().to_string());
+        assert_eq!(misfits, Vec::<String>::new());
+        if is_study {
+            studies += 1;
+            paths.extend(paths_of(&Study::load(&file).unwrap_or_else(|e| panic!("{e}"))));
+        } else {
+            cases += 1;
+            let loaded = case::load(&file).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(loaded.warnings, Vec::<String>::new());
+        }
+    }
+    assert!(cases >= 8 && studies >= 15 && paths.len() >= 20, "{cases} cases, {studies} studies, {paths:?}");
+    for path in paths {
+        assert!(case.at_path(&path).is_some(), "a study names `{path}`, which no case has");
+    }
+}
+
+/// Every path in a case that a study names.
+fn paths_of(study: &Study) -> Vec<String> {
+    let mut tables = vec![&study.base.set, &study.base.append];
+    let mut paths = study.base.unset.clone();
+    for variant in &study.variants {
+        tables.extend([&variant.set, &variant.append]);
+        paths.extend_from_slice(&variant.unset);
+    }
+    for axis in &study.axes {
+        paths.extend_from_slice(&axis.fields);
+        tables.extend(axis.levels.iter().map(|level| &level.set));
+        paths.extend(axis.levels.iter().flat_map(|level| level.unset.clone()));
+    }
+    if let Some(sample) = &study.sample {
+        paths.extend(sample.ranges.iter().flat_map(|range| range.fields.clone()));
+        for option in sample.choices.iter().flat_map(|choice| &choice.options) {
+            tables.push(&option.set);
+            paths.extend_from_slice(&option.unset);
+        }
+    }
+    paths.extend(tables.into_iter().flat_map(|table| table.keys().cloned()));
+    paths
+}
+
+#[test]
+fn a_file_that_does_not_fit_is_found_out() {
+    let schema = case_schema();
+    let misfits = |text: &str| schema.misfits(&schema.0, &toml::from_str(text).expect("TOML"), "file");
+    assert_eq!(misfits("title = \"a\"\n[grid]\nspacing_m = 1\n[materials.sand]\nlaw = \"neo_hookean\""), [""; 0]);
+    for wrong in ["titel = \"a\"", "[grid]\nspacing = 1", "[materials.sand]\nlaw = \"x\"", "[domain]\nx_m = [1]"] {
+        assert_eq!(misfits(wrong).len(), 1, "{wrong}");
+    }
+    assert!(schema.at_path("boundaries.gate.opening").is_some() && schema.at_path("boundaries.gate.open").is_none());
+    assert_eq!(schema.0["required"].as_array().map(Vec::len), Some(7), "{}", schema.0["required"]);
+    assert!(!Value::to_string(&schema.0).contains("\"null\""));
+}
