@@ -6,13 +6,18 @@
 //! many runs are recorded in `runs/*.csv` of their folder; from the record, their analysis takes seconds, and
 //! [`Context::studies`] makes the record anew.
 
+pub mod balances;
 pub mod barrier;
+mod case_run;
 pub mod column;
 pub mod data;
 #[cfg(test)]
 mod errata;
 pub mod flume;
 pub mod record;
+pub mod runs;
+pub mod scatter;
+pub mod verdict;
 pub mod watch;
 
 use checkdam::output::OutputError;

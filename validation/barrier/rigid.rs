@@ -3,9 +3,9 @@
 //! Two readings of the release: the literal one, and the set that the flume at 40 and 23 degrees was calibrated with, untouched.
 //! What must hold is judged; the paper's numbers, none of which was used for anything, stand beside ours.
 
-use super::balances::Balances;
 use super::{INCLINATION_DEG, PUBLISHED};
-use crate::flume::{Flume, base_friction};
+use crate::balances::Balances;
+use crate::case_run::{CaseRun, base_friction};
 use crate::{Context, Failure, Validation, data};
 use checkdam::case::parse;
 use checkdam::check::{Check, Expected, Kind};
@@ -31,7 +31,7 @@ const READINGS: [(&str, &str); 2] =
     [("literal", include_str!("60deg_rigid.toml")), ("calibrated", include_str!("60deg_rigid_calibrated.toml"))];
 
 /// What of a run stands beside a published quantity.
-fn counterpart(flume: &Flume, case: &str, quantity: &str) -> Option<f64> {
+fn counterpart(flume: &CaseRun, case: &str, quantity: &str) -> Option<f64> {
     let front = flume.summary.front.iter().find(|f| f.x_m == 0.7);
     Some(match (case, quantity) {
         ("any", "flow arrives at the barrier") => flume.get("arrival_s"),
@@ -48,7 +48,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     for (name, text) in READINGS {
         let case = parse(text, name).map_err(|e| Failure::Record(e.to_string()))?.case;
         let folder = context.folder.join(format!("barrier_rigid_{name}_run"));
-        let flume = Flume::run(name, &case, Some(&folder), context)?;
+        let flume = CaseRun::new(name, &case, Some(&folder), context)?;
         outcome.checks.extend(checks(&flume));
         flumes.push(flume);
     }
@@ -77,7 +77,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
 }
 
 /// What must hold whatever the paper says.
-fn checks(flume: &Flume) -> Vec<Check> {
+fn checks(flume: &CaseRun) -> Vec<Check> {
     let (name, summary) = (flume.name, &flume.summary);
     let mut checks = Balances::of(summary, None).checks(&format!("{name}: "), "balance of the ledger");
     // Side walls, which the balance of the deposit leaves out, hold a part of it, and may brake the front below a block.

@@ -2,7 +2,7 @@
 
 use super::SOURCE;
 use super::plan::{self, CASES, CHANGES, Case, Planned, STEEP_DEG, friction_angles, numbers};
-use super::verdict::{Ours, Recorded, even, sentence};
+use super::verdict::{Ours, Recorded, sentence};
 use crate::data::{self, Datum};
 use checkdam::check::{Check, Expected, Kind, Tolerance};
 use checkdam::theory::collapse::slope_run_out;
@@ -162,7 +162,8 @@ pub fn against_data(name: &str, inclined: bool, rows: &[Recorded], outcome: &mut
         let [coarse, medium, fine] = ours.grids;
         let data = datum.value / scale;
         let error = fine - data;
-        let (u_data, u_val) = (even(datum.uncertainty) / scale, ours.validation(&datum, scale));
+        let u = ours.uncertainty(&datum, scale);
+        let (u_data, u_val) = (u.data, u.validation());
         let head = [data, u_data, coarse, medium, fine].map(number).join(",");
         let tail = [error, 100.0 * error / data, ours.numerical, ours.input, u_val, error.abs() / (2.0 * u_val)];
         let tail = tail.map(number).join(",");
@@ -193,7 +194,7 @@ pub fn against_data(name: &str, inclined: bool, rows: &[Recorded], outcome: &mut
     outcome.tables.push((format!("{name}_verdict"), text));
     let standing = compared(inclined, rows).into_iter().filter(|(d, ..)| STANDING.contains(&d.id.as_str()));
     for (datum, case, ours, scale) in standing {
-        let over = (ours.grids[2] - datum.value / scale).abs() / (2.0 * ours.validation(&datum, scale));
+        let over = (ours.grids[2] - datum.value / scale).abs() / (2.0 * ours.uncertainty(&datum, scale).validation());
         outcome.check(
             Check::new(
                 format!("{}: {}, error over 2 u_val, still", case.name, datum.quantity),

@@ -7,10 +7,10 @@
 
 use super::baseline::{self, Numerical};
 use super::rules::judge;
-use super::runs::{self, Run};
 use super::{compare, read_case};
 use crate::data::Datum;
 use crate::record::Record;
+use crate::runs::{self, Run};
 use crate::{Context, Failure, Validation};
 use checkdam::output::Table;
 use checkdam::plot::PlotError;

@@ -1,6 +1,6 @@
 //! The paper's numbers with ours beside them.
 
-use super::Flume;
+use crate::case_run::CaseRun;
 use crate::data::{self, Datum};
 use checkdam_verification::report::{number, quoted};
 
@@ -34,7 +34,7 @@ fn counterpart(quantity: &str) -> Option<Counterpart> {
 }
 
 /// Published, ours, difference, for both cases.
-pub fn against_paper(flumes: &[Flume]) -> String {
+pub fn against_paper(flumes: &[CaseRun]) -> String {
     let mut text = String::from("case,quantity,unit,kind,published,uncertainty,checkdam,difference_percent\n");
     for flume in flumes {
         for (datum, of) in published(flume.name) {

@@ -1,10 +1,11 @@
 //! The numbers of the pages, side by side.
 
 use super::super::baseline::{CASE_CELLS, CELLS};
+use super::super::compare;
 use super::super::judge::{Basis, Reading};
-use super::super::{Flume, compare};
 use super::{FIGURES, Line};
 use crate::Failure;
+use crate::case_run::CaseRun;
 use crate::data::{self, Datum};
 use checkdam_verification::report::{number, quoted};
 
@@ -17,7 +18,7 @@ pub const WINDOW: &str = "flume_pages_window";
 ///
 /// # Errors
 /// A record is not as it should be.
-pub fn tables(flumes: &[Flume]) -> Result<Vec<(String, String)>, Failure> {
+pub fn tables(flumes: &[CaseRun]) -> Result<Vec<(String, String)>, Failure> {
     let basis = Basis::read()?;
     let mut text = String::from(
         "figure,case,quantity,unit,measured,measured_half_width,authors,authors_half_width,authors_kind,\
@@ -79,7 +80,7 @@ fn ends(basis: &Basis, case: &str, line: &Line, literal: f64) -> [(f64, String);
 }
 
 /// Speeds in the camera's window at the instants of the paper, on both clocks: 95th percentile and mean over the material.
-fn window(flumes: &[Flume]) -> String {
+fn window(flumes: &[CaseRun]) -> String {
     let mut text =
         String::from("case,quantity,kind,published,half_width,clock,time_s,speed_p95_m_per_s,speed_mean_m_per_s\n");
     for flume in flumes {
