@@ -10,6 +10,7 @@ pub mod balances;
 pub mod barrier;
 mod case_run;
 pub mod column;
+pub mod counterpart;
 pub mod data;
 #[cfg(test)]
 mod errata;

@@ -1,6 +1,6 @@
 //! Rows of a table of runs.
 
-use crate::flume::Counterpart;
+use crate::counterpart::Counterpart;
 use checkdam::output::{OutputError, Table};
 use checkdam::study::quantities::QUANTITIES;
 use std::collections::BTreeMap;
@@ -30,8 +30,8 @@ impl Run {
     }
 
     /// What stands beside a published number.
-    pub fn value(&self, of: Counterpart) -> f64 {
-        of(&|quantity| self.get(quantity))
+    pub fn value(&self, of: &Counterpart) -> f64 {
+        of.of(&|quantity| self.get(quantity))
     }
 }
 

@@ -107,17 +107,6 @@ pub fn steep(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
     Ok(())
 }
 
-/// What a datum is compared with: the column of the record, and the length that scales it.
-fn ours_of(datum: &Datum, case: &Case) -> Option<(&'static str, f64)> {
-    let scale = if datum.unit == "m" { case.size[0] } else { 1.0 };
-    let column = match datum.quantity.as_str() {
-        q if q.starts_with("run-out") => "run_out_tip_1",
-        q if q.starts_with("height") => "height_1",
-        _ => return None,
-    };
-    Some((column, scale))
-}
-
 /// Cases that a datum belongs to.
 fn case_of(datum: &Datum) -> Option<&'static Case> {
     let aspect = datum.quantity.rsplit_once(" at ").map(|(_, a)| a).filter(|a| a.starts_with("a = "));
@@ -140,14 +129,16 @@ fn judged(datum: &Datum) -> bool {
 fn compared(inclined: bool, rows: &[Recorded]) -> Vec<(Datum, &'static Case, Ours, f64)> {
     let own = data::rows(SOURCE).into_iter().filter_map(|d| {
         let case = case_of(&d).filter(|c| (c.grains == "slope") == inclined)?;
-        let (column, scale) = ours_of(&d, case)?;
+        let of = d.ours.as_ref()?;
+        // The length that scales the datum: our lengths are over r0.
+        let scale = if d.unit == "m" { case.size[0] } else { 1.0 };
         // Inputs were changed on the column of the same grains as long as it is high, and on the slopes of 0 and 16 degrees.
         let changed = match case.grains {
             "slope" if case.slope_deg > 0.0 => "slope 16",
             "slope" => "slope 0",
             grains => CASES.iter().find(|c| c.grains == grains && c.changed_on.is_some())?.name,
         };
-        let ours = Ours::new(rows, case.name, case.cells, column, changed);
+        let ours = Ours::new(rows, case.name, case.cells, of, changed);
         Some((d, case, ours, scale))
     });
     own.collect()

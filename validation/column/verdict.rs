@@ -1,6 +1,7 @@
 //! What stands behind the verdicts of the columns: numerical and input uncertainty, from the record.
 
 use super::plan::{CHANGES, COLUMNS};
+use crate::counterpart::Counterpart;
 use crate::data::Datum;
 use crate::verdict::{Uncertainty, Verdict, even, of_grids, of_inputs};
 use checkdam::theory::order::Study;
@@ -56,14 +57,14 @@ pub struct Ours {
 }
 
 impl Ours {
-    /// The number `column` of `case`, on its grids. Changed inputs are those of `changed`, a case that has them; they count in
+    /// The number `of` of `case`, on its grids. Changed inputs are those of `changed`, a case that has them; they count in
     /// proportion to its number.
     ///
     /// The finest value counts; u_num is that of the grids ([`of_grids`]) together with what repetitions scatter.
-    pub fn new(rows: &[Recorded], case: &str, cells: [usize; 3], column: &str, changed: &str) -> Self {
+    pub fn new(rows: &[Recorded], case: &str, cells: [usize; 3], of: &Counterpart, changed: &str) -> Self {
         let at = |c: &str, n: Option<usize>, change: &str| {
             let row = rows.iter().find(|r| r.case == c && n.is_none_or(|n| r.cells == n) && r.change == change);
-            row.map_or(f64::NAN, |r| r.get(column))
+            row.map_or(f64::NAN, |r| of.of(&|column| r.get(column)))
         };
         let grids = cells.map(|n| at(case, Some(n), "base"));
         let spacings = cells.map(|n| 1.0 / n as f64);

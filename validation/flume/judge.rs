@@ -5,9 +5,9 @@
 //! varies them.
 
 use super::baseline::{self, Numerical};
-use super::compare::Counterpart;
 use super::{calibration, sensitivity};
 use crate::Failure;
+use crate::counterpart::Counterpart;
 use crate::data::Datum;
 use crate::record::Record;
 use crate::runs::{self, Run};
@@ -91,17 +91,17 @@ impl Basis {
     }
 
     /// What three grids say of a quantity.
-    pub fn numerical(&self, case: &str, of: Counterpart) -> Numerical {
+    pub fn numerical(&self, case: &str, of: &Counterpart) -> Numerical {
         Numerical::of(&self.repetitions, case, &|r| r.value(of))
     }
 
     /// The quantity in the one run on the finest grid.
-    pub fn finest(&self, case: &str, of: Counterpart) -> f64 {
+    pub fn finest(&self, case: &str, of: &Counterpart) -> f64 {
         self.finest.iter().find(|r| r.case == case).map_or(f64::NAN, |r| r.value(of))
     }
 
     /// The quantity with the frozen set.
-    pub fn calibrated(&self, case: &str, of: Counterpart) -> f64 {
+    pub fn calibrated(&self, case: &str, of: &Counterpart) -> f64 {
         self.refined.iter().find(|r| r.case == case && r.label == self.best).map_or(f64::NAN, |r| r.value(of))
     }
 
@@ -111,7 +111,7 @@ impl Basis {
     }
 
     /// A published number, and ours by a reading.
-    pub fn judge(&self, reading: Reading, case: &str, datum: &Datum, of: Counterpart) -> Judged {
+    pub fn judge(&self, reading: Reading, case: &str, datum: &Datum, of: &Counterpart) -> Judged {
         let numerical = self.numerical(case, of);
         let (ours, (input, largest)) = match reading {
             Reading::Literal => (numerical.scatter[1].mean, input(&self.changed, case, of)),
@@ -131,7 +131,7 @@ fn open<'a>(runs: &'a [Run], case: &str) -> impl Iterator<Item = &'a Run> {
 }
 
 /// Standard uncertainty from the inputs, and the largest of its parts with its cause.
-fn input(runs: &[Run], case: &str, of: Counterpart) -> (f64, String) {
+fn input(runs: &[Run], case: &str, of: &Counterpart) -> (f64, String) {
     let base = runs.iter().find(|r| r.case == case && r.factor == "base").map_or(f64::NAN, |r| r.value(of));
     let own = |factor: &str| open(runs, case).filter(|r| r.factor == factor).map(|r| r.value(of)).collect();
     let (total, largest) = of_inputs(base, UNSTATED.map(|factor| (factor, own(factor))));
@@ -157,7 +157,7 @@ mod tests {
             run("cell size", "0.02 m", 500.0),
             run("base friction", "rough", 10.0),
         ];
-        let of: Counterpart = |q| q("static_force_n");
+        let of = &Counterpart::parse("static_force_n").expect("a quantity");
         let (total, largest) = input(&runs, "40deg", of);
         assert!((total - (6.0f64.powi(2) + 4.0f64.powi(2)).sqrt() / 3f64.sqrt()).abs() < 1e-12);
         assert_eq!(largest, "gate");

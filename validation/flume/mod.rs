@@ -6,7 +6,6 @@
 pub mod baseline;
 pub mod calibration;
 mod compare;
-pub(crate) use compare::Counterpart;
 mod figures;
 mod judge;
 pub mod noise;
