@@ -1,8 +1,10 @@
 //! Published and measured numbers with their provenance, as the CSV files beside this one have them.
 //!
 //! One row, one number: what it is, in which unit, how uncertain, of which kind, where it stands, how it was read. The
-//! uncertainty is the half width of the interval in which the number lies by what the source says, in the number's unit.
+//! uncertainty is the half width of the interval in which the number lies by what the source says, in the number's unit. The column
+//! `ours` says what stands beside it here; comparison, verdict, page and figure are made from that.
 
+use crate::counterpart::{self, Counterpart};
 use serde::Deserialize;
 
 /// How a number came about.
@@ -34,6 +36,9 @@ pub struct Datum {
     pub note: String,
     /// Name within its file.
     pub id: String,
+    /// Where ours stands; none for what nothing of ours stands beside.
+    #[serde(default, deserialize_with = "counterpart::cell")]
+    pub ours: Option<Counterpart>,
 }
 
 /// A file of numbers: its name below `validation/`, and its text.

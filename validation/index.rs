@@ -1,6 +1,7 @@
 //! The pages that list what stands in `reports/`: every rung, validation, table and figure, with title, verdict and link.
 
 use crate::VALIDATIONS;
+use crate::experiment::Experiment;
 use checkdam::output::Table;
 use checkdam_verification::{RUNGS, Rung};
 use std::fmt::Write;
@@ -26,6 +27,16 @@ fn files(folder: &Path) -> Result<Vec<String>, String> {
     let mut names: Vec<String> = names.filter(|n| n != "README.md").collect();
     names.sort();
     Ok(names)
+}
+
+/// Names and titles of the experiments that are data alone.
+fn data_alone(reports: &Path) -> Result<Vec<(String, String)>, String> {
+    let folder = reports.join("../validation/experiments");
+    let entries = std::fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut folders: Vec<_> = entries.filter_map(Result::ok).map(|e| e.path()).filter(|p| p.is_dir()).collect();
+    folders.sort();
+    let titled = |folder| Experiment::load(folder).map(|e| (e.name, e.title)).map_err(|e| e.to_string());
+    folders.iter().map(|f| titled(f)).collect()
 }
 
 /// What the table of checks of a rung or a validation says.
@@ -66,6 +77,10 @@ fn index(reports: &Path) -> Result<String, String> {
         let verdict = verdict(reports, "validation", validation.name)?;
         let _ = writeln!(page, "| [{0}](validation/{0}.csv) | {1} | {verdict} |", validation.name, validation.title);
     }
+    for (name, title) in data_alone(reports)? {
+        let verdict = verdict(reports, "validation", &name)?;
+        let _ = writeln!(page, "| [{name}](validation/{name}_page.md) | {title} | {verdict} |");
+    }
     Ok(page)
 }
 
@@ -99,11 +114,12 @@ fn ladder(reports: &Path, files: &[String]) -> Result<String, String> {
 
 fn experiments(reports: &Path, files: &[String]) -> Result<String, String> {
     let mut page = String::from("# The validations\n\n[All suites](../README.md)\n");
-    let all: Vec<&str> = VALIDATIONS.iter().map(|v| v.name).collect();
-    for validation in VALIDATIONS {
-        let name = validation.name;
+    let coded = VALIDATIONS.iter().map(|v| (v.name.to_string(), v.title.to_string()));
+    let every: Vec<(String, String)> = coded.chain(data_alone(reports)?).collect();
+    let all: Vec<&str> = every.iter().map(|v| v.0.as_str()).collect();
+    for (name, title) in &every {
         let verdict = verdict(reports, "validation", name)?;
-        let _ = write!(page, "\n## {name}\n\n{}.\n\n- Verdict: {verdict}, [table]({name}.csv).\n", validation.title);
+        let _ = write!(page, "\n## {name}\n\n{title}.\n\n- Verdict: {verdict}, [table]({name}.csv).\n");
         for (kind, end) in [("Pages", ".md"), ("Tables", ".csv"), ("Figures", ".svg")] {
             let own = own(name, &all, files).filter(|f| f.ends_with(end) && **f != format!("{name}.csv"));
             let links: Vec<String> = own.map(link).collect();

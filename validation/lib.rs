@@ -5,15 +5,25 @@
 //! whatever the source says (balances, bounds, sampling noise) is judged, what the source says stands beside it. Studies of
 //! many runs are recorded in `runs/*.csv` of their folder; from the record, their analysis takes seconds, and
 //! [`Context::studies`] makes the record anew.
+//!
+//! An experiment that needs no analysis of its own is a folder of data, which [`experiment`] runs; those of the project stand in
+//! `experiments/`.
 
+pub mod balances;
 pub mod barrier;
+mod case_run;
 pub mod column;
+pub mod counterpart;
 pub mod data;
 #[cfg(test)]
 mod errata;
+pub mod experiment;
 pub mod flume;
 pub mod index;
 pub mod record;
+pub mod runs;
+pub mod scatter;
+pub mod verdict;
 pub mod watch;
 
 use checkdam::output::OutputError;

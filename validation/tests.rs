@@ -1,6 +1,7 @@
 //! Runs the validations. What must hold whatever the sources say is judged first, then tables and figures are compared with those
 //! in `reports/validation`; after a change that is meant, `cargo reports` writes them anew.
 
+use checkdam_validation::experiment::Experiment;
 use checkdam_validation::record::{RecordedRun, processors, spread_out};
 use checkdam_validation::{Context, Failure, STUDIES, VALIDATIONS, Validation, write};
 use checkdam_verification::report::{self, Caught, faults_csv};
@@ -35,7 +36,11 @@ fn validate(name: &str) {
     let (validation, folder) = (validation(name), folder("validation"));
     let outcome = run(validation, Fault::NONE, false, &folder).unwrap_or_else(|e| panic!("{name}: {e}"));
     let written = write(validation, &outcome, &folder).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let verdict = outcome.verdict(name, &folder);
+    judge_and_compare(name, &outcome, written, &folder);
+}
+
+fn judge_and_compare(name: &str, outcome: &Outcome, written: Vec<String>, folder: &Path) {
+    let verdict = outcome.verdict(name, folder);
     assert!(verdict.passes(), "\n{}", verdict.failing());
     let read = |file: String| (file.clone(), std::fs::read(folder.join(&file)).expect("what was just written"));
     let files: Vec<(String, Vec<u8>)> = written.into_iter().map(read).collect();
@@ -84,6 +89,22 @@ fn the_pages_list_every_rung_and_validation() {
     let reports = root().join("reports");
     for (file, text) in checkdam_validation::index::pages(&reports).unwrap_or_else(|e| panic!("{e}")) {
         report::compare(&reports.join(file), text.as_bytes()).unwrap_or_else(|e| panic!("\n{e}"));
+    }
+}
+
+/// Every experiment that is data alone: a folder in `validation/experiments`.
+#[test]
+fn experiments() {
+    let out = folder("experiments");
+    let folders = std::fs::read_dir(root().join("validation/experiments")).expect("the experiments");
+    let mut folders: Vec<PathBuf> = folders.filter_map(Result::ok).map(|f| f.path()).filter(|f| f.is_dir()).collect();
+    folders.sort();
+    assert!(!folders.is_empty());
+    for folder in folders {
+        let experiment = Experiment::load(&folder).unwrap_or_else(|e| panic!("{e}"));
+        let outcome = experiment.run(&out, &mut |_| true).unwrap_or_else(|e| panic!("{}: {e}", experiment.name));
+        let written = experiment.write(&outcome, &out).unwrap_or_else(|e| panic!("{}: {e}", experiment.name));
+        judge_and_compare(&experiment.name, &outcome, written, &out);
     }
 }
 

@@ -104,7 +104,7 @@ enum Command {
     },
     /// Run the validations: the experiments beside our numbers, with both uncertainties; write tables and figures.
     Validate {
-        /// Validations to run [default: all]
+        /// Validations to run [default: all], or the folder of one experiment: study.toml, case files, published.csv
         #[arg(value_name = "NAME")]
         names: Vec<String>,
         /// Make the runs of studies anew instead of reading their record; goes on where it was stopped

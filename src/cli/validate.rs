@@ -1,9 +1,10 @@
-//! `checkdam validate`.
+//! `checkdam validate`: validations by their names, or an experiment by its folder.
 
-use super::console::tell;
+use super::console::{say, tell};
 use super::progress::Words;
-use super::stop_on_ctrl_c;
 use super::suite::{Ended, Suite};
+use super::{BAD_INPUT, CHECK_FAILED, ENDED_EARLY, stop_on_ctrl_c};
+use checkdam_validation::experiment::Experiment;
 use checkdam_validation::{Context, Failure, VALIDATIONS, Validation, write};
 use checkdam_verification::Fault;
 use std::path::Path;
@@ -18,6 +19,11 @@ const SUITE: Suite<Validation> = Suite {
 };
 
 pub fn validate(names: &[String], studies: bool, out: &Path) -> ExitCode {
+    if let [folder] = names
+        && Path::new(folder).is_dir()
+    {
+        return experiment(Path::new(folder), out);
+    }
     let stop = stop_on_ctrl_c("stopping: studies keep the runs that have ended (Ctrl-C again to quit at once)");
     SUITE.run(names, out, &mut |validation| {
         if !validation.study.is_empty() {
@@ -37,4 +43,40 @@ pub fn validate(names: &[String], studies: bool, out: &Path) -> ExitCode {
             error => Ended::Failed(error.to_string()),
         })
     })
+}
+
+/// An experiment that is a folder of data.
+fn experiment(folder: &Path, out: &Path) -> ExitCode {
+    let experiment = match Experiment::load(folder) {
+        Ok(experiment) => experiment,
+        Err(error) => {
+            tell!("{}", error.to_string().trim_end());
+            return ExitCode::from(BAD_INPUT);
+        }
+    };
+    tell!("{}: {}; {} runs", experiment.name, experiment.title, experiment.runs());
+    let stop = stop_on_ctrl_c("stopping (Ctrl-C again to quit at once)");
+    let mut words = Words::new();
+    let outcome = experiment.run(out, &mut |text| {
+        words.show(text);
+        !stop.load(Ordering::SeqCst)
+    });
+    words.clear();
+    let outcome = match outcome {
+        Ok(outcome) => outcome,
+        Err(error) => {
+            tell!("error: {error}");
+            return ExitCode::from(ENDED_EARLY);
+        }
+    };
+    let verdict = outcome.verdict(&experiment.name, out);
+    say!("{verdict}");
+    match experiment.write(&outcome, out) {
+        Ok(files) => tell!("      {} files in {}; start with {}_page.md", files.len(), out.display(), experiment.name),
+        Err(error) => {
+            tell!("error: {error}");
+            return ExitCode::from(BAD_INPUT);
+        }
+    }
+    if verdict.passes() { ExitCode::SUCCESS } else { ExitCode::from(CHECK_FAILED) }
 }

@@ -1,9 +1,9 @@
 //! Numerical error of the barrier's numbers: cells of 20, 10 and 5 mm, moved grids and other packings.
 
-use super::balances::Balances;
 use super::records::{FINE, SCATTER, on_cells, on_study_cells};
-use crate::flume::runs::Run;
-use crate::flume::scatter::Scatter;
+use crate::balances::Balances;
+use crate::runs::Run;
+use crate::scatter::Scatter;
 use crate::{Context, Failure, Validation};
 use checkdam::plot::PlotError;
 use checkdam::plot::curves::{self, Curve, Curves, panel};

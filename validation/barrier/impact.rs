@@ -1,9 +1,9 @@
 //! The flume at 60 degrees against four barriers on coarse cells, run as the command does it: what must hold at every moment, whatever
 //! the barrier.
 
-use super::balances::{Balances, largest};
 use super::close_up::BARRIERS;
 use super::records::{LITERAL, RIGIDITY};
+use crate::balances::{Balances, largest};
 use crate::watch::watched;
 use crate::{Context, Failure, Validation};
 use checkdam::check::Check;

@@ -5,7 +5,6 @@
 //! [`grids`], [`steps`], [`density`] and [`weight`] analyse studies of many runs, which [`records`] lists; [`close_up`]
 //! looks into four of the barriers; [`claims`] holds every claim of the paper against all of this.
 
-pub mod balances;
 pub mod beam;
 pub mod claims;
 pub mod close_up;

@@ -1,8 +1,8 @@
 //! The studies of the barrier and their records.
 
-use crate::flume::runs::{self, Run};
-use crate::flume::scatter::Scatter;
 use crate::record::Record;
+use crate::runs::{self, Run};
+use crate::scatter::Scatter;
 use crate::{Context, Failure};
 use checkdam::case::{Body, Case};
 use checkdam::output::Table;

@@ -6,10 +6,10 @@
 //! the sand does at the contact. Both are taken apart: explicit and implicit in equal steps, and either in long and in
 //! short ones. The stiffest of the barriers also runs in steps a third as long as the short ones: do the two get closer?
 
-use super::balances::Balances;
 use super::records::{INTEGRATION, SHORT_STEPS};
-use crate::flume::runs::Run;
-use crate::flume::scatter::Scatter;
+use crate::balances::Balances;
+use crate::runs::Run;
+use crate::scatter::Scatter;
 use crate::{Context, Failure, Validation};
 use checkdam::check::{Check, Kind};
 use checkdam::plot::PlotError;

@@ -4,10 +4,10 @@
 //! rho_c is the density at which it would buckle (Greenhill 1881). What happens within milliseconds does not see that, so that
 //! what is found lies between no change and that of a barrier so much softer under a slow load.
 
-use super::balances::Balances;
 use super::records::{LITERAL, WEIGHT, barrier, height, young_of_one};
-use crate::flume::runs::Run;
-use crate::flume::scatter::Scatter;
+use crate::balances::Balances;
+use crate::runs::Run;
+use crate::scatter::Scatter;
 use crate::{Context, Failure, Validation};
 use checkdam::check::{Check, Expected, Kind};
 use checkdam::plot::PlotError;

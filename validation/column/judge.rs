@@ -2,7 +2,7 @@
 
 use super::SOURCE;
 use super::plan::{self, CASES, CHANGES, Case, Planned, STEEP_DEG, friction_angles, numbers};
-use super::verdict::{Ours, Recorded, even, sentence};
+use super::verdict::{Ours, Recorded, sentence};
 use crate::data::{self, Datum};
 use checkdam::check::{Check, Expected, Kind, Tolerance};
 use checkdam::theory::collapse::slope_run_out;
@@ -107,17 +107,6 @@ pub fn steep(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
     Ok(())
 }
 
-/// What a datum is compared with: the column of the record, and the length that scales it.
-fn ours_of(datum: &Datum, case: &Case) -> Option<(&'static str, f64)> {
-    let scale = if datum.unit == "m" { case.size[0] } else { 1.0 };
-    let column = match datum.quantity.as_str() {
-        q if q.starts_with("run-out") => "run_out_tip_1",
-        q if q.starts_with("height") => "height_1",
-        _ => return None,
-    };
-    Some((column, scale))
-}
-
 /// Cases that a datum belongs to.
 fn case_of(datum: &Datum) -> Option<&'static Case> {
     let aspect = datum.quantity.rsplit_once(" at ").map(|(_, a)| a).filter(|a| a.starts_with("a = "));
@@ -140,14 +129,16 @@ fn judged(datum: &Datum) -> bool {
 fn compared(inclined: bool, rows: &[Recorded]) -> Vec<(Datum, &'static Case, Ours, f64)> {
     let own = data::rows(SOURCE).into_iter().filter_map(|d| {
         let case = case_of(&d).filter(|c| (c.grains == "slope") == inclined)?;
-        let (column, scale) = ours_of(&d, case)?;
+        let of = d.ours.as_ref()?;
+        // The length that scales the datum: our lengths are over r0.
+        let scale = if d.unit == "m" { case.size[0] } else { 1.0 };
         // Inputs were changed on the column of the same grains as long as it is high, and on the slopes of 0 and 16 degrees.
         let changed = match case.grains {
             "slope" if case.slope_deg > 0.0 => "slope 16",
             "slope" => "slope 0",
             grains => CASES.iter().find(|c| c.grains == grains && c.changed_on.is_some())?.name,
         };
-        let ours = Ours::new(rows, case.name, case.cells, column, changed);
+        let ours = Ours::new(rows, case.name, case.cells, of, changed);
         Some((d, case, ours, scale))
     });
     own.collect()
@@ -162,7 +153,8 @@ pub fn against_data(name: &str, inclined: bool, rows: &[Recorded], outcome: &mut
         let [coarse, medium, fine] = ours.grids;
         let data = datum.value / scale;
         let error = fine - data;
-        let (u_data, u_val) = (even(datum.uncertainty) / scale, ours.validation(&datum, scale));
+        let u = ours.uncertainty(&datum, scale);
+        let (u_data, u_val) = (u.data, u.validation());
         let head = [data, u_data, coarse, medium, fine].map(number).join(",");
         let tail = [error, 100.0 * error / data, ours.numerical, ours.input, u_val, error.abs() / (2.0 * u_val)];
         let tail = tail.map(number).join(",");
@@ -193,7 +185,7 @@ pub fn against_data(name: &str, inclined: bool, rows: &[Recorded], outcome: &mut
     outcome.tables.push((format!("{name}_verdict"), text));
     let standing = compared(inclined, rows).into_iter().filter(|(d, ..)| STANDING.contains(&d.id.as_str()));
     for (datum, case, ours, scale) in standing {
-        let over = (ours.grids[2] - datum.value / scale).abs() / (2.0 * ours.validation(&datum, scale));
+        let over = (ours.grids[2] - datum.value / scale).abs() / (2.0 * ours.uncertainty(&datum, scale).validation());
         outcome.check(
             Check::new(
                 format!("{}: {}, error over 2 u_val, still", case.name, datum.quantity),

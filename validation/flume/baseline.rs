@@ -7,9 +7,9 @@
 
 use super::read_case;
 use super::rules::judge;
-use super::runs::{self, Run};
-use super::scatter::Scatter;
 use crate::record::Record;
+use crate::runs::{self, Run};
+use crate::scatter::Scatter;
 use crate::{Context, Failure, Validation};
 use checkdam::plot::PlotError;
 use checkdam::plot::curves::{self, Curve, Curves, panel};

@@ -7,10 +7,11 @@
 
 use super::baseline::{self, Numerical};
 use super::rules::judge;
-use super::runs::{self, Run};
 use super::{compare, read_case};
+use crate::counterpart::Counterpart;
 use crate::data::Datum;
 use crate::record::Record;
+use crate::runs::{self, Run};
 use crate::{Context, Failure, Validation};
 use checkdam::output::Table;
 use checkdam::plot::PlotError;
@@ -58,7 +59,7 @@ pub struct Target {
     /// The number.
     pub datum: Datum,
     /// Ours, from the quantities of a run.
-    pub of: compare::Counterpart,
+    pub of: Counterpart,
     /// Standard deviation of ours from numerical causes.
     pub numerical: f64,
 }
@@ -66,16 +67,16 @@ pub struct Target {
 impl Target {
     /// Distance of a run over its standard deviation.
     pub fn distance(&self, run: &Run) -> f64 {
-        ((self.of)(&|q| run.get(q)) - self.datum.value) / self.datum.uncertainty.hypot(self.numerical)
+        (run.value(&self.of) - self.datum.value) / self.datum.uncertainty.hypot(self.numerical)
     }
 }
 
-/// What a case is fitted to: closed forms are no data.
+/// What a case is fitted to.
 pub fn targets(case: &str, repetitions: &[Run]) -> Vec<Target> {
-    let published = compare::published(case).into_iter().filter(|(datum, _)| datum.kind != "theory");
+    let published = compare::published(case).into_iter();
     published
         .map(|(datum, of)| {
-            let numerical = Numerical::of(repetitions, case, &|r| of(&|q| r.get(q))).uncertainty();
+            let numerical = Numerical::of(repetitions, case, &|r| r.value(&of)).uncertainty();
             Target { datum, of, numerical }
         })
         .collect()
@@ -202,7 +203,7 @@ fn residuals(members: &[Member], targets: &[Vec<Target>; 2]) -> String {
     for m in members {
         for (k, case) in ANGLES.iter().enumerate() {
             for t in &targets[k] {
-                let ours = (t.of)(&|q| m.runs[k].get(q));
+                let ours = m.runs[k].value(&t.of);
                 let deviation = t.datum.uncertainty.hypot(t.numerical);
                 let numbers = [t.datum.value, deviation, ours, t.distance(m.runs[k])].map(number);
                 let (set, quantity) = (quoted(m.label), quoted(&t.datum.quantity));
@@ -257,7 +258,7 @@ mod tests {
     fn wanted() -> [Vec<Target>; 2] {
         [10.0, 20.0].map(|value| {
             let datum = compare::published("40deg").remove(0).0;
-            let of: compare::Counterpart = |q| q("static_force_n");
+            let of = Counterpart::parse("static_force_n").expect("a quantity");
             vec![Target { datum: Datum { value, uncertainty: 0.6, ..datum }, of, numerical: 0.8 }]
         })
     }

@@ -1,6 +1,7 @@
 //! Tables and figures of the flume: what a reader of the paper's Figs. 2, 3, 4 and 15 looks for.
 
-use super::{CASES, Flume, base_friction, compare, run_folder};
+use super::{CASES, compare, run_folder};
+use crate::case_run::{CaseRun, base_friction};
 use checkdam::output::Table;
 use checkdam::plot::curves::{self, Curve, Curves};
 use checkdam::plot::force_time::{self, ReferenceLine};
@@ -14,7 +15,7 @@ use std::path::Path;
 const SAMPLES: usize = 20;
 
 /// Tables of a run that the figures are drawn from, besides those in its folder.
-pub fn tables(flume: &Flume) -> Vec<(String, String)> {
+pub fn tables(flume: &CaseRun) -> Vec<(String, String)> {
     let name = flume.name;
     vec![
         (format!("flume_{name}_references"), references(flume)),
@@ -24,7 +25,7 @@ pub fn tables(flume: &Flume) -> Vec<(String, String)> {
 }
 
 /// Forces to compare with: limits of equilibrium, closed forms, the experiment.
-fn references(flume: &Flume) -> String {
+fn references(flume: &CaseRun) -> String {
     let case = &flume.summary.case;
     let mut text = String::from("label,value_n,half_width_n\n");
     let mut add = |label: &str, value: f64, half: f64| text += &format!("{},{value:.4},{half:.4}\n", quoted(label));
@@ -56,7 +57,7 @@ fn references(flume: &Flume) -> String {
 }
 
 /// Velocity of the front along the flume, beside a block that slides from rest with the base's friction.
-fn front(flume: &Flume) -> String {
+fn front(flume: &CaseRun) -> String {
     let case = &flume.summary.case;
     let angle = case.gravity.inclination_deg.to_radians();
     let acceleration = acceleration_from_rest(case.gravity.magnitude_m_per_s2, angle, base_friction(case));
@@ -68,7 +69,7 @@ fn front(flume: &Flume) -> String {
 }
 
 /// Force from the impulse and from the stress of 1, 2, 3 layers, means over 20 ms (Eq. 8 and Fig. 15 of the paper).
-fn layers(flume: &Flume) -> String {
+fn layers(flume: &CaseRun) -> String {
     let rows = flume.records.history.chunks(SAMPLES).filter(|c| c.len() == SAMPLES).map(|chunk| {
         let mean = |value: fn(&checkdam::run::records::HistoryRow) -> f64| {
             chunk.iter().map(value).sum::<f64>() / SAMPLES as f64

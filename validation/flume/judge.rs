@@ -1,18 +1,17 @@
-//! What the difference from a published number allows one to say, in the manner of ASME V&V 20 (2009).
+//! The flume's verdicts: what stands behind those of `verdict.rs`.
 //!
-//! E = S - D is the difference of our number and the paper's; u_val^2 = u_num^2 + u_input^2 + u_D^2. The error of the model lies
-//! in E -+ 2 u_val. Where |E| is below 2 u_val, the comparison cannot tell the model from a perfect one: the number is not
-//! resolved. u_num comes from three grids and repetitions; u_D is the datum's half width, taken as evenly spread; u_input is
-//! the root of the sum of squares over the inputs of the one-at-a-time study, half the span that each causes, taken as evenly
-//! spread. Inputs that the paper states count with the half of their last digit's unit, as far as the study varies them.
+//! u_num comes from three grids and repetitions; u_D is the datum's half width, taken as evenly spread; u_input is from the inputs
+//! of the one-at-a-time study. Inputs that the paper states count with the half of their last digit's unit, as far as the study
+//! varies them.
 
 use super::baseline::{self, Numerical};
-use super::compare::Counterpart;
-use super::runs::{self, Run};
 use super::{calibration, sensitivity};
 use crate::Failure;
+use crate::counterpart::Counterpart;
 use crate::data::Datum;
 use crate::record::Record;
+use crate::runs::{self, Run};
+use crate::verdict::{Uncertainty, Verdict, even, of_inputs};
 use checkdam::output::Table;
 
 /// What the paper leaves open: causes of input uncertainty.
@@ -48,29 +47,6 @@ impl Reading {
             Self::Literal => "literal",
             Self::Calibrated => "calibrated",
         }
-    }
-}
-
-/// Standard uncertainty of an even spread of this half width.
-fn even(half_width: f64) -> f64 {
-    half_width / 3f64.sqrt()
-}
-
-/// What stands behind a verdict.
-#[derive(Debug, Clone, Copy)]
-pub struct Uncertainty {
-    /// Of grid and scatter.
-    pub numerical: f64,
-    /// Of the inputs.
-    pub input: f64,
-    /// Of the datum.
-    pub data: f64,
-}
-
-impl Uncertainty {
-    /// All of it.
-    pub fn validation(&self) -> f64 {
-        self.numerical.hypot(self.input).hypot(self.data)
     }
 }
 
@@ -115,17 +91,17 @@ impl Basis {
     }
 
     /// What three grids say of a quantity.
-    pub fn numerical(&self, case: &str, of: Counterpart) -> Numerical {
+    pub fn numerical(&self, case: &str, of: &Counterpart) -> Numerical {
         Numerical::of(&self.repetitions, case, &|r| r.value(of))
     }
 
     /// The quantity in the one run on the finest grid.
-    pub fn finest(&self, case: &str, of: Counterpart) -> f64 {
+    pub fn finest(&self, case: &str, of: &Counterpart) -> f64 {
         self.finest.iter().find(|r| r.case == case).map_or(f64::NAN, |r| r.value(of))
     }
 
     /// The quantity with the frozen set.
-    pub fn calibrated(&self, case: &str, of: Counterpart) -> f64 {
+    pub fn calibrated(&self, case: &str, of: &Counterpart) -> f64 {
         self.refined.iter().find(|r| r.case == case && r.label == self.best).map_or(f64::NAN, |r| r.value(of))
     }
 
@@ -135,7 +111,7 @@ impl Basis {
     }
 
     /// A published number, and ours by a reading.
-    pub fn judge(&self, reading: Reading, case: &str, datum: &Datum, of: Counterpart) -> Judged {
+    pub fn judge(&self, reading: Reading, case: &str, datum: &Datum, of: &Counterpart) -> Judged {
         let numerical = self.numerical(case, of);
         let (ours, (input, largest)) = match reading {
             Reading::Literal => (numerical.scatter[1].mean, input(&self.changed, case, of)),
@@ -144,7 +120,7 @@ impl Basis {
         };
         let uncertainty = Uncertainty { numerical: numerical.uncertainty(), input, data: even(datum.uncertainty) };
         let error = ours - datum.value;
-        Judged { ours, error, uncertainty, largest, said: sentence(error, &uncertainty) }
+        Judged { ours, error, uncertainty, largest, said: Verdict::of(error, &uncertainty).sentence(NOT_RESOLVED) }
     }
 }
 
@@ -155,48 +131,19 @@ fn open<'a>(runs: &'a [Run], case: &str) -> impl Iterator<Item = &'a Run> {
 }
 
 /// Standard uncertainty from the inputs, and the largest of its parts with its cause.
-fn input(runs: &[Run], case: &str, of: Counterpart) -> (f64, String) {
+fn input(runs: &[Run], case: &str, of: &Counterpart) -> (f64, String) {
     let base = runs.iter().find(|r| r.case == case && r.factor == "base").map_or(f64::NAN, |r| r.value(of));
-    let part = |factor: &&str| {
-        let own = open(runs, case).filter(|r| r.factor == **factor).map(|r| r.value(of));
-        let values = own.chain([base]).filter(|v| v.is_finite());
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-        even(0.5 * (high - low))
-    };
-    let parts: Vec<(f64, &str)> = UNSTATED.iter().map(|f| (part(f), *f)).collect();
-    let total = parts.iter().map(|p| p.0 * p.0).sum::<f64>().sqrt();
-    let largest = parts.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map_or("", |p| p.1);
+    let own = |factor: &str| open(runs, case).filter(|r| r.factor == factor).map(|r| r.value(of)).collect();
+    let (total, largest) = of_inputs(base, UNSTATED.map(|factor| (factor, own(factor))));
     (total, largest.to_string())
 }
 
-/// What may be said, its first words short enough for a table.
-const SENTENCES: [&str; 3] = [
-    "agrees within numerical and data uncertainty",
-    "not resolved: the inputs that are not stated do not determine this number",
-    "disagrees by more than all stated uncertainties",
-];
-
-fn sentence(error: f64, u: &Uncertainty) -> &'static str {
-    let without_input = u.numerical.hypot(u.data);
-    match error.abs() {
-        e if e <= 2.0 * without_input => SENTENCES[0],
-        e if e <= 2.0 * u.validation() => SENTENCES[1],
-        _ => SENTENCES[2],
-    }
-}
+/// What leaves a number of the flume unresolved.
+const NOT_RESOLVED: &str = "not resolved: the inputs that are not stated do not determine this number";
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_may_be_said() {
-        let u = Uncertainty { numerical: 3.0, input: 12.0, data: 4.0 };
-        assert_eq!(u.validation(), 13.0);
-        assert!(sentence(-10.0, &u).starts_with("agrees"));
-        assert!(sentence(10.1, &u).starts_with("not resolved") && sentence(-26.0, &u).starts_with("not resolved"));
-        assert!(sentence(26.1, &u).starts_with("disagrees") && sentence(f64::NAN, &u).starts_with("disagrees"));
-    }
 
     #[test]
     fn inputs_add_up_by_their_squares() {
@@ -210,7 +157,7 @@ mod tests {
             run("cell size", "0.02 m", 500.0),
             run("base friction", "rough", 10.0),
         ];
-        let of: Counterpart = |q| q("static_force_n");
+        let of = &Counterpart::parse("static_force_n").expect("a quantity");
         let (total, largest) = input(&runs, "40deg", of);
         assert!((total - (6.0f64.powi(2) + 4.0f64.powi(2)).sqrt() / 3f64.sqrt()).abs() < 1e-12);
         assert_eq!(largest, "gate");
@@ -218,6 +165,5 @@ mod tests {
         // What did not come to rest says nothing.
         runs[2].ended = "end time".into();
         assert!(input(&runs, "40deg", of).0 < total);
-        assert_eq!(even(3f64.sqrt()), 1.0);
     }
 }

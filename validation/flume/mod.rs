@@ -12,17 +12,14 @@ pub mod noise;
 mod pages;
 mod physics;
 mod rules;
-pub(super) mod runs;
-pub(super) mod scatter;
 pub mod sensitivity;
 pub mod verdict;
 
-use super::watch::watched;
+use super::case_run::CaseRun;
 use super::{Context, Failure, Validation};
 use checkdam::boundary::Friction;
 use checkdam::case::{Case, parse};
 use checkdam::plot::PlotError;
-use checkdam::run::{Experiment, Records, Summary, files, run_in_memory};
 use checkdam::study::quantities::{QUANTITIES, measure};
 use checkdam_verification::report::number;
 use checkdam_verification::{Fault, FaultKind, Outcome};
@@ -41,52 +38,6 @@ pub const VALIDATION: Validation = Validation {
 /// The cases: name, angle and text.
 pub(super) const CASES: [(&str, &str); 2] =
     [("40deg", include_str!("40deg.toml")), ("23deg", include_str!("23deg.toml"))];
-
-/// A flume case that was run.
-pub(super) struct Flume {
-    pub name: &'static str,
-    pub experiment: Experiment,
-    pub records: Records,
-    pub summary: Summary,
-}
-
-impl Flume {
-    /// Runs a case into `folder`, which is emptied, or in memory.
-    pub fn run(name: &'static str, case: &Case, folder: Option<&Path>, context: &mut Context) -> Result<Self, Failure> {
-        if let Some(folder) = folder {
-            clear(folder)?;
-        }
-        let (experiment, records, summary) = watched(name, context.progress, |p| match folder {
-            None => run_in_memory(case, p),
-            Some(folder) => rayon::scope(|_| files::run_into(case, folder, p)),
-        })?;
-        Ok(Self { name, experiment, records, summary })
-    }
-
-    /// A quantity by its name in the tables of studies.
-    pub fn get(&self, quantity: &str) -> f64 {
-        let values = measure(&self.summary);
-        QUANTITIES.iter().position(|q| q.name == quantity).map_or(f64::NAN, |k| values[k])
-    }
-}
-
-/// Friction coefficient of the base of a case.
-pub(super) fn base_friction(case: &Case) -> f64 {
-    let base = case.boundaries.iter().find(|b| Some(&b.name) == case.gauges.base.as_ref());
-    match base.and_then(|b| b.contact_law()) {
-        Some(Friction::Coulomb(friction)) => friction,
-        _ => f64::NAN,
-    }
-}
-
-/// An empty folder.
-fn clear(folder: &Path) -> Result<(), Failure> {
-    let fail = |source| checkdam::output::OutputError::Create { path: folder.to_path_buf(), source };
-    if folder.is_dir() {
-        std::fs::remove_dir_all(folder).map_err(fail)?;
-    }
-    Ok(std::fs::create_dir_all(folder).map_err(fail)?)
-}
 
 /// Folder of the whole run of a case.
 fn run_folder(folder: &Path, name: &str) -> PathBuf {
@@ -121,7 +72,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         let mut case = parse(text, name).map_err(|e| Failure::Record(e.to_string()))?.case;
         make_faulty(&mut case, &context.fault);
         let folder = run_folder(context.folder, name);
-        let mut flume = Flume::run(name, &case, Some(&folder), context)?;
+        let mut flume = CaseRun::new(name, &case, Some(&folder), context)?;
         for row in &mut flume.records.history {
             row.normal *= context.fault.contact_force;
         }
@@ -145,7 +96,7 @@ fn draw(folder: &Path) -> Result<Vec<String>, PlotError> {
 }
 
 /// All quantities of both cases, to nine digits: what changes in them is a change of the code.
-fn quantities(flumes: &[Flume]) -> String {
+fn quantities(flumes: &[CaseRun]) -> String {
     let mut text = String::from("quantity");
     text.extend(flumes.iter().map(|f| format!(",{}", f.name)));
     text.push('\n');

@@ -5,11 +5,11 @@
 //! compared with recorded ones; what is allowed is three times the standard error of the difference of two such means, from
 //! the recorded scatter, and never less than 1e-6, the round-off of a sum.
 
-use super::runs::{self, Run};
-use super::scatter::Scatter;
 use super::{compare, make_faulty, read_case};
 use crate::data::{self, Datum};
 use crate::record::processors;
+use crate::runs::{self, Run};
+use crate::scatter::Scatter;
 use crate::{Context, Failure, Validation};
 use checkdam::case::parse;
 use checkdam::check::{Check, Expected, Kind, Tolerance};

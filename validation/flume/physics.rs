@@ -1,12 +1,12 @@
 //! What any run of the flume must satisfy, whatever the paper says.
 
-use super::{Flume, base_friction};
+use crate::case_run::{CaseRun, base_friction};
 use checkdam::check::{Check, Expected, Kind, Tolerance};
 use checkdam::theory::sliding_block::acceleration_from_rest;
 
 /// The checks.
-pub fn checks(flume: &Flume) -> Vec<Check> {
-    let Flume { name, experiment, records, summary } = flume;
+pub fn checks(flume: &CaseRun) -> Vec<Check> {
+    let CaseRun { name, experiment, records, summary } = flume;
     let case = &summary.case;
     let (Some(barrier), Some(deposit), Some(gauge), Some(last)) =
         (&summary.barrier, &summary.deposit, experiment.barrier().and_then(|g| g.boundary()), records.momentum.last())

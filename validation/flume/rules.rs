@@ -1,6 +1,6 @@
 //! What every run of the flume must satisfy, whatever the paper says.
 
-use super::runs::Run;
+use crate::runs::Run;
 use checkdam::check::{Check, Expected, Kind};
 
 /// What every run must satisfy; limit equilibrium only where the base and the barrier alone hold the deposit.

@@ -3,9 +3,9 @@
 use super::baseline;
 use super::read_case;
 use super::rules::judge;
-use super::runs::{self, Run};
-use super::scatter::Scatter;
 use crate::record::Record;
+use crate::runs::{self, Run};
+use crate::scatter::Scatter;
 use crate::{Context, Failure, Validation};
 use checkdam::output::Table;
 use checkdam::plot::PlotError;

@@ -29,8 +29,8 @@ fn run(_: &mut Context) -> Result<Outcome, Failure> {
     let (mut given, mut asked) = (0, 0);
     for reading in Reading::ALL {
         for case in ["40deg", "23deg"] {
-            for (datum, of) in compare::published(case).into_iter().filter(|(datum, _)| datum.kind != "theory") {
-                let j = basis.judge(reading, case, &datum, of);
+            for (datum, of) in compare::published(case) {
+                let j = basis.judge(reading, case, &datum, &of);
                 let u = j.uncertainty;
                 let over = j.error.abs() / (2.0 * u.validation());
                 let numbers =
@@ -59,7 +59,7 @@ fn run(_: &mut Context) -> Result<Outcome, Failure> {
 fn bias(logs: &[(Reading, f64)]) -> String {
     let mut text = String::from("reading,bias_factor,scatter_factor,quantities\n");
     for reading in Reading::ALL {
-        let s = super::scatter::Scatter::of(logs.iter().filter(|l| l.0 == reading).map(|l| l.1));
+        let s = crate::scatter::Scatter::of(logs.iter().filter(|l| l.0 == reading).map(|l| l.1));
         let numbers = [libm::exp(s.mean), libm::exp(s.deviation)].map(number);
         text += &format!("{},{},{}\n", reading.name(), numbers.join(","), s.count);
     }

@@ -18,7 +18,7 @@ mod wave;
 pub use numbers::{Numbers, numbers};
 pub use releases::BARRIERS;
 
-use super::balances::{self, largest};
+use crate::balances::{self, largest};
 use crate::{Context, Failure, Validation};
 use checkdam::check::{Check, Kind};
 use checkdam::output::{OutputError, Table, write_text};

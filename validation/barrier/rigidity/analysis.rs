@@ -1,8 +1,8 @@
 //! What the records say of each rigidity under each release.
 
 use crate::barrier::records::{LITERAL, RIGIDITY, SCATTER, SCATTER_CALIBRATED, on_rigid_wall, peaks};
-use crate::flume::runs::Run;
-use crate::flume::scatter::Scatter;
+use crate::runs::Run;
+use crate::scatter::Scatter;
 use crate::{Context, Failure};
 
 /// One rigidity under one release.

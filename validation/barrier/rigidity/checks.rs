@@ -1,8 +1,8 @@
 //! What must hold in all runs of the study.
 
 use super::{Analysis, Point};
-use crate::barrier::balances::Balances;
-use crate::flume::runs::Run;
+use crate::balances::Balances;
+use crate::runs::Run;
 use checkdam::check::{Check, Expected, Kind};
 
 /// Spearman's rank correlation of values with their places; without ties.

@@ -10,8 +10,8 @@ mod threshold;
 pub use analysis::{Analysis, Point, analyse, front};
 pub use threshold::{crossing, negligible, plateau};
 
-use super::balances::Balances;
 use super::records::{RIGIDITY, SCATTER_CALIBRATED};
+use crate::balances::Balances;
 use crate::{Context, Failure, Validation};
 use checkdam_verification::Outcome;
 

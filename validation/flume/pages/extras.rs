@@ -2,7 +2,7 @@
 
 use super::super::compare;
 use super::text::{published, three};
-use super::{FIGURES, Figure};
+use super::{Figure, LINES};
 use crate::data;
 use checkdam::output::{OutputError, Table};
 
@@ -47,7 +47,7 @@ pub fn closed_forms(references: &[(&str, Table)]) -> Result<String, OutputError>
 
 /// What the paper says of the figure and nothing of ours stands beside.
 pub fn not_compared(figure: &Figure) -> String {
-    let shown = |id: &str| FIGURES.iter().any(|f| f.lines.iter().any(|l| l.stated.contains(&id)));
+    let shown = |id: &String| LINES.iter().any(|l| l.stated.contains(id));
     let of_it = |place: &str| {
         let last = place.rsplit("Fig. ").next().unwrap_or_default();
         place.contains("Fig. ") && last.trim_end_matches(char::is_alphabetic) == figure.number

@@ -1,10 +1,11 @@
 //! The numbers of the pages, side by side.
 
 use super::super::baseline::{CASE_CELLS, CELLS};
+use super::super::compare;
 use super::super::judge::{Basis, Reading};
-use super::super::{Flume, compare};
 use super::{FIGURES, Line};
 use crate::Failure;
+use crate::case_run::CaseRun;
 use crate::data::{self, Datum};
 use checkdam_verification::report::{number, quoted};
 
@@ -17,7 +18,7 @@ pub const WINDOW: &str = "flume_pages_window";
 ///
 /// # Errors
 /// A record is not as it should be.
-pub fn tables(flumes: &[Flume]) -> Result<Vec<(String, String)>, Failure> {
+pub fn tables(flumes: &[CaseRun]) -> Result<Vec<(String, String)>, Failure> {
     let basis = Basis::read()?;
     let mut text = String::from(
         "figure,case,quantity,unit,measured,measured_half_width,authors,authors_half_width,authors_kind,\
@@ -26,9 +27,9 @@ pub fn tables(flumes: &[Flume]) -> Result<Vec<(String, String)>, Failure> {
     );
     for figure in &FIGURES {
         for flume in flumes {
-            for line in figure.lines {
+            for line in figure.lines() {
                 let cells = row(&basis, flume.name, line).join(",");
-                text += &format!("{},{},{},{},{cells}\n", figure.number, flume.name, quoted(line.quantity), line.unit);
+                text += &format!("{},{},{},{},{cells}\n", figure.number, flume.name, quoted(&line.quantity), line.unit);
             }
         }
     }
@@ -42,28 +43,28 @@ fn cell(x: f64) -> String {
 
 fn row(basis: &Basis, case: &str, line: &Line) -> Vec<String> {
     let stated: Vec<Datum> = (data::rows(compare::PUBLISHED).into_iter())
-        .filter(|d| line.stated.contains(&d.id.as_str()) && [case, "unstated"].contains(&d.case.as_str()))
+        .filter(|d| line.stated.contains(&d.id) && [case, "unstated"].contains(&d.case.as_str()))
         .collect();
     // One of which the paper does not say which it is stands in both columns.
     let measured = stated.iter().find(|d| d.kind.ends_with("measured"));
     let authors = stated.iter().find(|d| d.kind != "measured");
     let two = |d: Option<&Datum>| [d.map_or(f64::NAN, |d| d.value), d.map_or(f64::NAN, |d| d.uncertainty)].map(cell);
-    let numerical = basis.numerical(case, line.of);
+    let numerical = basis.numerical(case, &line.of);
     let ours = numerical.scatter;
     debug_assert_eq!(ours.len(), CELLS.len());
     let index = 100.0 * numerical.order.index[0];
     let ends = ends(basis, case, line, ours[CASE_CELLS].mean);
     let judged = |reading: Reading, d: Option<&Datum>| {
-        let judged = d.filter(|d| d.kind != "theory").map(|d| basis.judge(reading, case, d, line.of));
+        let judged = d.filter(|d| d.kind != "theory").map(|d| basis.judge(reading, case, d, &line.of));
         judged.map_or([String::new(), String::new()], |j| [j.said.to_string(), cell(2.0 * j.uncertainty.validation())])
     };
     let mut cells: Vec<String> = two(measured).into_iter().chain(two(authors)).collect();
     cells.push(authors.map_or_else(String::new, |d| d.kind.clone()));
     cells.extend(ours.map(|s| cell(s.mean)));
-    cells.push(cell(basis.finest(case, line.of)));
+    cells.push(cell(basis.finest(case, &line.of)));
     cells.extend([ours[CASE_CELLS].deviation, numerical.order.order, index, numerical.uncertainty()].map(cell));
     cells.extend(ends.into_iter().flat_map(|(value, with)| [cell(value), quoted(&with)]));
-    cells.push(cell(basis.calibrated(case, line.of)));
+    cells.push(cell(basis.calibrated(case, &line.of)));
     cells.extend([measured, authors].into_iter().flat_map(|d| judged(Reading::Literal, d)));
     cells.extend(judged(Reading::Calibrated, authors.or(measured)).into_iter().take(1));
     cells
@@ -71,7 +72,7 @@ fn row(basis: &Basis, case: &str, line: &Line) -> Vec<String> {
 
 /// Least and greatest of the runs with one unstated input changed, and with what; the literal reading among them.
 fn ends(basis: &Basis, case: &str, line: &Line, literal: f64) -> [(f64, String); 2] {
-    let changed = basis.open(case).map(|r| (r.value(line.of), format!("{}: {}", r.factor, r.label)));
+    let changed = basis.open(case).map(|r| (r.value(&line.of), format!("{}: {}", r.factor, r.label)));
     let all: Vec<(f64, String)> =
         changed.chain([(literal, "literal reading".to_string())]).filter(|c| c.0.is_finite()).collect();
     let end = |sign: f64| all.iter().min_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0))).cloned();
@@ -79,7 +80,7 @@ fn ends(basis: &Basis, case: &str, line: &Line, literal: f64) -> [(f64, String);
 }
 
 /// Speeds in the camera's window at the instants of the paper, on both clocks: 95th percentile and mean over the material.
-fn window(flumes: &[Flume]) -> String {
+fn window(flumes: &[CaseRun]) -> String {
     let mut text =
         String::from("case,quantity,kind,published,half_width,clock,time_s,speed_p95_m_per_s,speed_mean_m_per_s\n");
     for flume in flumes {

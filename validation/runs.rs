@@ -1,11 +1,11 @@
 //! Rows of a table of runs.
 
-use super::compare::Counterpart;
+use crate::counterpart::Counterpart;
 use checkdam::output::{OutputError, Table};
 use checkdam::study::quantities::QUANTITIES;
 use std::collections::BTreeMap;
 
-/// One run.
+/// A row: one run of a study.
 #[derive(Debug, Clone)]
 pub struct Run {
     /// Case.
@@ -20,7 +20,7 @@ pub struct Run {
     pub ended: String,
     /// Values of what varied, by column.
     pub set: BTreeMap<String, String>,
-    pub(super) numbers: BTreeMap<&'static str, f64>,
+    numbers: BTreeMap<&'static str, f64>,
 }
 
 impl Run {
@@ -30,8 +30,8 @@ impl Run {
     }
 
     /// What stands beside a published number.
-    pub fn value(&self, of: Counterpart) -> f64 {
-        of(&|quantity| self.get(quantity))
+    pub fn value(&self, of: &Counterpart) -> f64 {
+        of.of(&|quantity| self.get(quantity))
     }
 }
 

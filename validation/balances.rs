@@ -1,6 +1,6 @@
 //! What must hold in any run of the barrier: momentum and energy add up, the barrier's forces are in balance, nothing passes through.
 
-use crate::flume::runs::Run;
+use crate::runs::Run;
 use checkdam::check::{Check, Kind};
 use checkdam::run::Summary;
 use checkdam::run::structure::TORN;
