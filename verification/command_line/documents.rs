@@ -2,6 +2,7 @@
 
 use crate::lab::Lab;
 use checkdam::study::{Study, plan};
+use checkdam_verification::RUNGS;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -178,6 +179,13 @@ fn links_lead_somewhere() {
         }
     }
     none("links that lead nowhere", &wrong);
+}
+
+#[test]
+fn every_rung_stands_in_the_table_of_the_ladder() {
+    let table = fs::read_to_string(root().join("verification/README.md")).unwrap();
+    let rows = RUNGS.iter().map(|rung| format!("| `{}` | {} |", rung.name, rung.title));
+    none("rungs that are not in verification/README.md", &rows.filter(|row| !table.contains(row)).collect::<Vec<_>>());
 }
 
 #[test]
