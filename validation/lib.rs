@@ -5,6 +5,8 @@
 //! whatever the source says (balances, bounds, sampling noise) is judged, what the source says stands beside it. Studies of
 //! many runs are recorded in `runs/*.csv` of their folder; from the record, their analysis takes seconds, and
 //! [`Context::studies`] makes the record anew.
+//!
+//! Elsewhere: validation in the sense of V&V, comparison with experiments.
 
 pub mod barrier;
 pub mod column;
