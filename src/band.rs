@@ -4,6 +4,9 @@
 //! Its points reach a few columns further; what they add there is kept apart and handed to the next band, which adds it
 //! before its own. So no two bands write to one place, and sums are taken in the order of the bands whatever thread
 //! works on which.
+//!
+//! Elsewhere: domain decomposition in strips. What a band's points add beyond its own nodes is its halo (ghost nodes,
+//! ghost layer), and handing it over is the halo exchange.
 
 use crate::body::Points;
 use crate::boundary::nodes::{Hold, Tally};

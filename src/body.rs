@@ -2,6 +2,9 @@
 //!
 //! The points of a body share mass, reference volume and law; everything else is stored as structure of arrays inside
 //! [`Block`]s, which the [`crate::layout`] keeps sorted by cell in bands of grid columns.
+//!
+//! Elsewhere: particles (markers) as structure of arrays; in blocks it is called array of structures of arrays (AoSoA)
+//! or a tiled layout.
 
 use crate::constitutive::{AnyLaw, Finger, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane};

@@ -3,6 +3,8 @@
 //! Nodes are numbered column by column (a column is a line of nodes along y), and only in the rows that material can reach.
 //! Memory and work follow the material, wherever it is; the grid itself has no bounds. The three nodes of a stencil column have
 //! successive numbers. The nodal fields themselves are kept by the [`crate::band`]s.
+//!
+//! Elsewhere: a sparse background mesh (Eulerian grid), of which only active nodes exist.
 
 /// Cell size and where node (0, 0) lies.
 #[derive(Debug, Clone, Copy, PartialEq)]

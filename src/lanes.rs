@@ -3,6 +3,8 @@
 //! A [`Lane`] holds one quantity of eight material points. Loops over lanes are plain Rust that the compiler turns into
 //! vector instructions; every lane does the same IEEE operations whatever the vector width, so the bits do not depend on the
 //! processor.
+//!
+//! Elsewhere: SIMD by autovectorisation.
 
 /// Material points per block.
 pub const LANES: usize = 8;

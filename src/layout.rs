@@ -5,6 +5,9 @@
 //!
 //! A sort stays valid until some point may have moved by more than one cell; until then a stencil starts at most one column or
 //! row beside where it was, and accumulators and active nodes allow for that.
+//!
+//! Elsewhere: binning, a counting sort or cell list of particles. The drift that a sort allows is the skin of a Verlet
+//! list.
 
 use crate::band::{Band, BandSums};
 use crate::body::{Body, Particle, Points};

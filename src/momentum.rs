@@ -2,6 +2,9 @@
 //!
 //! A node near the left edge of a band is also reached by points of the band before: their sum comes first, then the band's own.
 //! What the band before needs to see of the result is copied back into its reach.
+//!
+//! Elsewhere: the nodal momentum equation with lumped mass, in explicit steps. What is copied between bands is the halo
+//! exchange.
 
 use crate::band::{Band, NodeSum, OpenNode};
 use crate::boundary::Boundary;

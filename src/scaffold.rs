@@ -1,6 +1,8 @@
 //! Small scenes for unit tests, rungs, benchmarks and examples: a brick of material points, what it stands on, and how to step it.
 //!
 //! Below everything that checks: nothing of the solver uses it.
+//!
+//! Elsewhere: test fixtures.
 
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;

@@ -1,4 +1,6 @@
 //! The stable time step, and what limits it.
+//!
+//! Elsewhere: the Courant or CFL condition, the critical time step of explicit integration.
 
 use crate::body::Body;
 

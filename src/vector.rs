@@ -7,6 +7,8 @@
 //! The methods of the AVX types may only run on processors that have the instructions. [`crate::transfer`] sees to that: it names
 //! [`Avx2`] and [`Avx512`] only inside functions that it calls after asking the processor. Everything between such a function
 //! and an operation must be inlined, or the operation becomes a call: so no closures here, nor around these types elsewhere.
+//!
+//! Elsewhere: SIMD intrinsics.
 #![allow(unsafe_code)]
 
 /// Four doubles.

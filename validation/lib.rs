@@ -8,6 +8,8 @@
 //!
 //! An experiment that needs no analysis of its own is a folder of data, which [`experiment`] runs; those of the project stand in
 //! `experiments/`.
+//!
+//! Elsewhere: validation in the sense of V&V, comparison with experiments.
 
 pub mod balances;
 pub mod barrier;

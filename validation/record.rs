@@ -1,4 +1,6 @@
 //! Recorded runs of a study: made anew when asked for, read otherwise.
+//!
+//! Elsewhere: regression baselines.
 
 use super::{Context, Failure};
 use checkdam::case::{Case, Integration};

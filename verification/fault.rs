@@ -1,4 +1,6 @@
 //! Wrong physics on purpose.
+//!
+//! Elsewhere: fault injection.
 
 /// What can be wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,6 +4,8 @@
 //! The ladder is part of the library so that `cargo test` and the command run the same thing. A rung is one file and one line
 //! in [`RUNGS`]. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
 //! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
+//!
+//! Elsewhere: code verification, benchmark suite, method of manufactured solutions (MMS).
 
 pub mod cantilever;
 pub mod celerity;

@@ -3,6 +3,8 @@
 //! A boundary acts on the nodes inside it: material may leave them but not press into them, and slides on them with
 //! Coulomb friction. A clamp holds material back as well, on the nodes nearest to its plane and behind it. [`Boundary`]
 //! is the geometry, [`nodes`] the law at a node.
+//!
+//! Elsewhere: rigid obstacles, and essential (Dirichlet) conditions at nodes: free slip, no slip, unilateral, fixed.
 
 pub mod nodes;
 

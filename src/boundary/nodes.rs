@@ -4,6 +4,9 @@
 //! never holds back (but for a clamp), and one along its face that stops sliding, limited by the friction coefficient
 //! times the normal impulse. A node held by several boundaries finds all impulses together by projected Gauss-Seidel
 //! iteration (Jean 1999), so that a corner is no special case.
+//!
+//! Elsewhere: unilateral (Signorini) contact with Coulomb friction as a complementarity problem, in impulses. There is
+//! no warm start: impulses begin at zero in each step.
 
 use super::{Boundary, Friction};
 use crate::grid::ActiveGrid;

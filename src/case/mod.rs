@@ -2,6 +2,8 @@
 //!
 //! [`load`] reads a file, [`parse`] a text. Both return a [`LoadedCase`] whose defaults are filled in, or a [`CaseError`]
 //! whose `Display` is the complete report for the user.
+//!
+//! Elsewhere: the input file (input deck).
 
 mod boundary;
 mod contact;

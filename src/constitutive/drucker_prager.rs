@@ -1,4 +1,7 @@
 //! Drucker-Prager plasticity with dilatancy, a tension cut-off, and tracking of opened volume.
+//!
+//! Elsewhere: return mapping with a radial and an apex return; void tracking is a volume correction for material that
+//! separates.
 
 use super::elastic::LinearElastic;
 use super::{Increment, Law, PointState, Stress, cayley, midpoint_work};

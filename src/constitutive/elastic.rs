@@ -1,4 +1,6 @@
 //! Isotropic linear elasticity in rate form with the Jaumann rate.
+//!
+//! Elsewhere: hypoelasticity with an objective (corotational) rate.
 
 use super::{Increment, Law, PointState, Stress, cayley, midpoint_work};
 

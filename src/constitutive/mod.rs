@@ -3,6 +3,8 @@
 //! A law maps a state and a strain increment to a state. It knows neither grid nor bodies. Stress is the full 3-D Cauchy
 //! tensor; in plane strain its `yz` and `zx` components stay zero and are not stored, the out-of-plane stress `zz` is.
 //! Tension is positive.
+//!
+//! Elsewhere: material models, stress integration at an integration point (stress-point algorithm, UMAT).
 
 mod drucker_prager;
 mod elastic;

@@ -3,6 +3,8 @@
 //! The state is the left Cauchy-Green tensor b = F F^T, which an isotropic law needs and no more, kept as b - I so that small
 //! strains lose no digits. A step multiplies it by f = I + dt grad(v), the gradient of where the grid carries the points, which
 //! is exact: the stress depends on the deformation alone and not on the steps taken towards it.
+//!
+//! Elsewhere: hyperelasticity; b is also called the Finger tensor.
 
 use super::logarithm::log1p;
 use super::{Increment, Law, PointState, Stress};

@@ -1,5 +1,7 @@
 //! Which segment of a ring is nearest: runs of eight segments in boxes, eight boxes in a larger one, and so on, so that most
 //! segments are never looked at. Eight boxes or segments at a time are plain loops that the compiler turns into vectors.
+//!
+//! Elsewhere: a bounding volume hierarchy (a tree of axis-aligned boxes), the broad phase of contact detection.
 
 use super::{Vector, minus};
 use crate::lanes::{LANES, Lane};

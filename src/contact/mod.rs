@@ -11,6 +11,8 @@
 //! - [`rule`] is what a user chooses.
 //!
 //! Everything here is a function of what a node or a few points know; nothing imports the grid.
+//!
+//! Elsewhere: multi-field, multi-velocity or multi-material contact.
 
 mod boxes;
 pub mod node;

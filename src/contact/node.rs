@@ -8,6 +8,9 @@
 //! Impulses are accumulated per pair and given to both bodies with opposite signs, so momentum is kept to round-off. Work is
 //! impulse times the mean of the velocities before and after the step: with all other agents counted in the same way the works
 //! add up to the change of the node's kinetic energy exactly.
+//!
+//! Elsewhere: non-smooth contact dynamics, a complementarity problem at each node. There is no warm start: impulses
+//! begin at zero in each step.
 
 use super::pair::{State, Touch};
 use super::{Vector, dot, minus};

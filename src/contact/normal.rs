@@ -3,6 +3,8 @@
 //! The gradient of a body's volume at a node, the sum of V grad S over its points, points out of the body. It is exact for a
 //! straight surface along the grid or its diagonal; at other angles it is a few degrees off, and inside a body that reaches all
 //! around the node there is none (Lemiale, Hurmane and Nairn 2010).
+//!
+//! Elsewhere: contact normals from gradients of mass, volume or a colour function.
 
 use super::{Vector, direction, minus};
 

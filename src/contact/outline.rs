@@ -3,6 +3,9 @@
 //! A body that starts as a lattice of points has an outline: the ring of points with a free side, in order. The points carry it
 //! along as the body moves and bends, so the surface is known to a fraction of the distance between points, and a barrier many
 //! cells thick has a definite front and back. The surface lies half a point's extent outside of the ring, round at corners.
+//!
+//! Elsewhere: front tracking by a chain of markers; the distance from it is the signed distance (level set) of the
+//! body.
 
 use super::boxes::Segments;
 use super::{Vector, direction, dot, minus};

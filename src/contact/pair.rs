@@ -1,4 +1,6 @@
 //! Two bodies at a node: the impulse between them, by Signorini's and Coulomb's conditions.
+//!
+//! Elsewhere: complementarity conditions of unilateral contact; stick and slip as a return to the friction cone.
 
 use super::node::Side;
 use super::{Vector, minus};

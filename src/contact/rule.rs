@@ -1,4 +1,6 @@
 //! What a user chooses about the contact of two bodies.
+//!
+//! Elsewhere: a contact pair with its interface law. The structure is the master, the other body the slave.
 
 use super::Vector;
 use super::node::Side;

@@ -7,6 +7,8 @@
 //!   and off by some hundredths of a cell according to where the surfaces lie between the nodes;
 //! - from displacements since the bodies touched: for bodies that start in contact and slide little;
 //! - from the points nearest to the surface and their size (Nairn, Hammerquist and Smith 2020): exact for straight surfaces.
+//!
+//! Elsewhere: gap functions, the narrow phase of contact detection.
 
 use super::normal::Sample;
 use super::{Vector, dot, minus};

@@ -7,6 +7,8 @@
 //! - [`ReactionGauge`]: force and moment on a clamp, or between bodies.
 //! - [`penetration`]: how deep material lies inside a structure.
 //! - [`flow`]: front, depth, velocity, run-up, overtopping.
+//!
+//! Elsewhere: probes, sensors, load cells, history output, in-situ post-processing.
 
 mod barrier;
 pub mod flow;

@@ -2,6 +2,8 @@
 //!
 //! Momentum is booked by agent, energy by mechanism. Every entry is measured where it happens (at the node, at the point);
 //! none is inferred from another, so what does not add up shows as a residual.
+//!
+//! Elsewhere: energy and momentum budgets.
 
 use crate::boundary::nodes::Tally;
 use crate::contact::rule::ContactTally;

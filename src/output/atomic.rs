@@ -1,4 +1,6 @@
 //! Files that appear only when they are complete: written beside their place, synced, then renamed over it.
+//!
+//! Elsewhere: atomic (crash-safe) writes.
 
 use std::ffi::OsString;
 use std::fs::{self, File};

@@ -1,4 +1,6 @@
 //! The stages of a run and the gauges that are read in it.
+//!
+//! Elsewhere: the driver; stages are load steps.
 
 use super::ProgressFn;
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};

@@ -1,4 +1,6 @@
 //! What is recorded during a run.
+//!
+//! Elsewhere: history output, an observer.
 
 use crate::gauge::StructureSample;
 use crate::gauge::flow::FieldCell;

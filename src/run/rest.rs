@@ -1,4 +1,6 @@
 //! When the material counts as at rest.
+//!
+//! Elsewhere: a criterion of quasi-static equilibrium (steady state).
 
 use super::records::HistoryRow;
 

@@ -1,4 +1,7 @@
 //! The simulation: bodies, grid and clock. [`Simulation::step`] is the algorithm.
+//!
+//! Explicit steps are semi-implicit (symplectic) Euler: velocities first, then positions with the new velocities. That
+//! is the staggered leapfrog, with velocities half a step off.
 
 use crate::band::Band;
 use crate::body::Body;

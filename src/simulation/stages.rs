@@ -1,4 +1,6 @@
 //! The stages of a step, each on one band.
+//!
+//! USF, USL and MUSL are update stress first, last, and modified last.
 
 use super::field::VelocityField;
 use super::sweep::On;

@@ -1,4 +1,6 @@
 //! Works off the runs of a study.
+//!
+//! Elsewhere: an embarrassingly parallel job queue with restart.
 
 use super::plan::PlannedRun;
 use super::quantities::measure;

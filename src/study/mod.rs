@@ -4,6 +4,8 @@
 //! time, or a space-filling sample. [`plan`] turns it into runs, [`run`] works them off, one processor each, and goes on
 //! where an earlier, interrupted run of the same study stopped. A row of the table is one run: what was set, how it ended,
 //! and the [`quantities`] that were measured.
+//!
+//! Elsewhere: parameter sweeps, sensitivity analysis, design of experiments.
 
 mod change;
 mod engine;

@@ -1,4 +1,6 @@
 //! Points that fill a space evenly.
+//!
+//! Elsewhere: low-discrepancy sequences, quasi-Monte Carlo sampling.
 
 /// The first primes: bases of the dimensions.
 const PRIMES: [u32; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];

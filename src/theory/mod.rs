@@ -1,6 +1,8 @@
 //! Closed forms: what the solver is held against. Nothing here imports the solver, so that no reference is its own witness.
 //!
 //! One file per subject. Units are SI, angles radians, stresses positive in tension unless a function says otherwise.
+//!
+//! Elsewhere: analytical solutions, benchmark problems.
 
 pub mod bar;
 pub mod barrier;

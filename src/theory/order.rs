@@ -1,4 +1,6 @@
 //! Observed order of convergence and what it says about the error (Roache 1994; Celik et al. 2008).
+//!
+//! Elsewhere: Richardson extrapolation, grid convergence index (GCI).
 
 use libm::{log, pow};
 

@@ -1,4 +1,7 @@
 //! The loops over material points.
+//!
+//! P2G is the scatter, G2P the gather. The share of PIC is also called PIC damping (particle-in-cell damping) or
+//! FLIP/PIC blending.
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
 #![expect(clippy::too_many_arguments, reason = "of borrows in a struct the compiler does not know that they are apart")]

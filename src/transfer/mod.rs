@@ -2,6 +2,8 @@
 //!
 //! Each transfer is one loop over the blocks of a band: weights of eight points at a time, then the nodes of one point after
 //! the other. `kernels.rs` holds the loops, `dispatch.rs` runs them with the widest vectors the processor has.
+//!
+//! Elsewhere: P2G (scatter, projection) and G2P (gather, interpolation), as in particle-in-cell methods (PIC, FLIP).
 
 mod dispatch;
 mod kernels;

@@ -1,5 +1,6 @@
 //! The command as a user meets it: exit codes, messages, what is in the folder afterwards and what is not.
 
+mod documents;
 mod interrupted;
 mod lab;
 mod run;

@@ -1,4 +1,6 @@
 //! Which face of a structure is nearest to each of many points.
+//!
+//! Elsewhere: closest-point projection onto the master surface.
 
 use super::scan::Near;
 use crate::contact::outline::{Nearest, Surface};

@@ -2,6 +2,8 @@
 //! exchange impulses after the momentum balance (Ng et al., Appendix B).
 //!
 //! Nodes are worked one after the other in the order of the first field, so results do not depend on the number of threads.
+//!
+//! Elsewhere: contact search, and coupling of velocity fields at shared nodes.
 
 mod exchange;
 mod faces;

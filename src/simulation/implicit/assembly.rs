@@ -1,4 +1,6 @@
 //! Mass, stiffness and stencils of a body in implicit steps, anew after each sort.
+//!
+//! Elsewhere: assembly of lumped mass and of the stiffness (tangent) matrix.
 
 use super::{Banded, ImplicitBody, Point, TOUCHABLE};
 use crate::constitutive::AnyLaw;

@@ -1,4 +1,6 @@
 //! Symmetric band matrices and their Cholesky factors; what is not zero in them, to be multiplied with vectors.
+//!
+//! Elsewhere: a direct solver for band (skyline) matrices.
 
 /// The lower half of a symmetric matrix, row by row: each row ends on the diagonal.
 #[derive(Debug, Clone, Default)]

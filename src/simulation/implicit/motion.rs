@@ -1,4 +1,6 @@
 //! A step of a body in implicit steps: before contact, and after.
+//!
+//! Elsewhere: predictor and corrector.
 
 use super::{ImplicitBody, THETA};
 use crate::band::Band;

@@ -13,6 +13,8 @@
 //!
 //! Where one sweep does all of a step, each part has a pool of workspaces, which a band takes from as the sweep reaches it and
 //! gives back to when its last stage is done. A few serve all bands and stay in cache; the one given back last is taken first.
+//!
+//! Elsewhere: loop fusion with cache blocking, a wavefront or pipelined (skewed) schedule.
 
 mod part;
 mod seam;

@@ -3,6 +3,8 @@
 //! A part sweeps those on its side as far as they do not depend on the other part. The thread that is done first takes what can
 //! be done next, whosever it would have been, and so does the other. The order of the stages on a band, and what each needs, is kept;
 //! nothing else matters to the numbers.
+//!
+//! Elsewhere: work sharing at the halo between two subdomains.
 
 use super::stretch::Stretch;
 use super::together::LOOKS;

@@ -1,4 +1,6 @@
 //! Two things side by side, on threads that stay awake.
+//!
+//! Elsewhere: fork and join with threads that spin (busy wait).
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
