@@ -17,7 +17,7 @@ use checkdam::grid::{ActiveGrid, Lattice};
 use checkdam::lanes::floor_to_int;
 use checkdam::layout::{SortRules, Sorter};
 use checkdam::shape::{AveragedHat, Hat, Shape1d, ShapeFunction};
-use checkdam::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use checkdam::transfer::{NodeMap, PointConstants, Scatter, StressUpdate, Transfer, VelocityUpdate};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -73,8 +73,13 @@ impl Fixture {
         Self { half_width: shape.half_width(2), body, band, grid }
     }
 
-    fn constants(&self) -> PointConstants {
-        PointConstants { mass: self.body.point_mass, volume: self.body.point_volume, side_friction: 0.0 }
+    fn transfer(&self) -> Transfer<'_> {
+        let (mass, volume) = (self.body.point_mass, self.body.point_volume);
+        Transfer {
+            half_width: self.half_width,
+            map: NodeMap::new(&self.grid, self.band.first_node),
+            constants: PointConstants { mass, volume, side_friction: 0.0 },
+        }
     }
 }
 
@@ -85,12 +90,11 @@ fn transfers(c: &mut Criterion) {
         [("uGIMP", ShapeFunction::Ugimp), ("B-spline", ShapeFunction::Bspline), ("linear", ShapeFunction::Linear)]
     {
         let f = Fixture::new(shape);
-        let map = NodeMap::new(&f.grid, f.band.first_node);
-        let (l, constants) = (f.half_width, f.constants());
+        let transfer = f.transfer();
         let mut sums = vec![NodeSum::default(); f.band.reach];
         let points = &f.band.points[0];
         group.bench_function(format!("particles to grid, {name}"), |b| {
-            b.iter(|| transfer::scatter(Scatter::All, l, &map, constants, black_box(points), &mut sums));
+            b.iter(|| transfer.scatter(Scatter::All, black_box(points), &mut sums));
         });
         let velocity = VelocityUpdate { dt: 1e-5, pic: 0.01, remap: true, move_now: false };
         let (mut moving, mut moved, mut remapped) =
@@ -98,7 +102,7 @@ fn transfers(c: &mut Criterion) {
         group.bench_function(format!("grid to particles and back (MUSL), {name}"), |b| {
             b.iter(|| {
                 let motion = black_box(&f.band.work.motion);
-                transfer::gather_velocity(l, &map, constants, velocity, motion, &mut moving, &mut moved, &mut remapped)
+                transfer.gather_velocity(velocity, motion, &mut moving, &mut moved, &mut remapped)
             });
         });
         let stress = StressUpdate { dt: 1e-6, move_after: false };
@@ -106,7 +110,7 @@ fn transfers(c: &mut Criterion) {
         group.bench_function(format!("strain and stress of sand, {name}"), |b| {
             b.iter(|| {
                 let velocity = black_box(&f.band.work.strain_velocity);
-                transfer::update_stress(l, f.body.law, &map, constants, stress, velocity, &mut strained, &mut moved)
+                transfer.update_stress(f.body.law, stress, velocity, &mut strained, &mut moved)
             });
         });
     }
@@ -136,7 +140,7 @@ fn laws(c: &mut Criterion) {
     fn strain(law: &impl Law, states: &mut [PointState], d: &Increment) -> f64 {
         states.iter_mut().map(|state| law.update(state, d)).sum()
     }
-    let increment = Increment { xx: 1e-7, yy: -2e-7, xy: 3e-7, spin: 1e-7 };
+    let increment = Increment { dt: 1e-5, xx: 1e-7, yy: -2e-7, xy: 3e-7, spin: 1e-7 };
     let pressed = PointState { stress: Stress { xx: -500.0, yy: -900.0, zz: -500.0, xy: 0.0 }, ..Default::default() };
     let mut group = c.benchmark_group("law, one point at a time");
     group.throughput(Throughput::Elements(1024));

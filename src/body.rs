@@ -6,7 +6,7 @@
 //! Elsewhere: particles (markers) as structure of arrays; in blocks it is called array of structures of arrays (AoSoA)
 //! or a tiled layout.
 
-use crate::constitutive::{AnyLaw, Finger, Law, PointState, Stress};
+use crate::constitutive::{AnyLaw, History, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane};
 
 /// Eight material points. Fields are parallel arrays.
@@ -69,7 +69,7 @@ impl Particle {
 }
 
 impl Block {
-    /// Reads one lane, the point of this number.
+    /// Reads one lane, the point of this number, without what its law keeps of its own.
     #[inline]
     pub fn get(&self, l: usize, id: u32) -> Particle {
         Particle {
@@ -85,7 +85,7 @@ impl Block {
                 },
                 opened: self.opened[l],
                 plastic_shear: self.plastic_shear[l],
-                finger: Finger::default(),
+                history: History::default(),
             },
             volume_ratio: self.volume_ratio[l],
         }
@@ -108,18 +108,15 @@ impl Block {
     }
 }
 
-/// Left Cauchy-Green tensors of eight points less the identity: xx, yy, xy.
-pub type Fingers = [Lane; 3];
-
 /// Material points of one body, in order, the last block filled up with copies that are never counted.
 #[derive(Debug, Clone, Default)]
 pub struct Points {
     blocks: Vec<Block>,
     /// Numbers of the points within their body, unchanged by sorting; parallel to the blocks, which a step reads and writes.
     ids: Vec<[u32; LANES]>,
-    /// Parallel to the blocks, for laws that carry them, and else empty.
-    fingers: Vec<Fingers>,
-    carries_fingers: bool,
+    /// What the law keeps of its own, block by block, and how many lanes of it a block has: [`Law::HISTORY`].
+    histories: Vec<Lane>,
+    history: usize,
     len: usize,
 }
 
@@ -134,16 +131,16 @@ impl Points {
         self.len == 0
     }
 
-    /// No points, for a law that carries left Cauchy-Green tensors or not.
+    /// No points, with room for what this law keeps of its own; without it there is room for nothing.
     pub fn for_law(law: &AnyLaw) -> Self {
-        Self { carries_fingers: law.carries_deformation(), ..Self::default() }
+        Self { history: law.history(), ..Self::default() }
     }
 
     /// Forgets all points, keeping the memory.
     pub fn clear(&mut self) {
         self.blocks.clear();
         self.ids.clear();
-        self.fingers.clear();
+        self.histories.clear();
         self.len = 0;
     }
 
@@ -154,13 +151,11 @@ impl Points {
         if self.blocks.capacity() > 64 + 8 * blocks {
             self.blocks.shrink_to(2 * blocks);
             self.ids.shrink_to(2 * blocks);
-            self.fingers.shrink_to(2 * blocks);
+            self.histories.shrink_to(2 * blocks * self.history);
         }
         self.blocks.resize_with(blocks, Block::default);
         self.ids.resize(blocks, [u32::MAX; LANES]);
-        if self.carries_fingers {
-            self.fingers.resize_with(blocks, Fingers::default);
-        }
+        self.histories.resize(blocks * self.history, [0.0; LANES]);
         self.len = len;
     }
 
@@ -168,9 +163,10 @@ impl Points {
     pub fn set(&mut self, i: usize, p: &Particle) {
         self.blocks[i / LANES].set(i % LANES, p);
         self.ids[i / LANES][i % LANES] = p.id;
-        if let Some(f) = self.fingers.get_mut(i / LANES) {
-            let b = &p.state.finger;
-            (f[0][i % LANES], f[1][i % LANES], f[2][i % LANES]) = (b.xx, b.yy, b.xy);
+        for (lane, value) in
+            self.histories[i / LANES * self.history..].iter_mut().take(self.history).zip(p.state.history)
+        {
+            lane[i % LANES] = value;
         }
     }
 
@@ -195,6 +191,11 @@ impl Points {
         {
             let p = last.get(used - 1, u32::MAX);
             (used..LANES).for_each(|l| last.set(l, &p));
+            let from = self.histories.len() - self.history;
+            for lane in &mut self.histories[from..] {
+                let value = lane[used - 1];
+                lane[used..].fill(value);
+            }
         }
     }
 
@@ -222,21 +223,19 @@ impl Points {
         self.blocks.iter().enumerate().map(move |(i, b)| (b, (len - i * LANES).min(LANES)))
     }
 
-    /// The blocks, mutable, and their left Cauchy-Green tensors, for laws that carry them, or else none.
+    /// The blocks, mutable, and what the law keeps of its own, [`Law::HISTORY`] lanes a block.
     #[inline(always)]
-    pub fn blocks_mut(&mut self) -> (&mut [Block], &mut [Fingers]) {
-        (&mut self.blocks, &mut self.fingers)
+    pub fn blocks_mut(&mut self) -> (&mut [Block], &mut [Lane]) {
+        (&mut self.blocks, &mut self.histories)
     }
 
     /// All points in order.
     pub fn iter(&self) -> impl Iterator<Item = Particle> {
         self.blocks().zip(&self.ids).enumerate().flat_map(|(i, ((b, n), ids))| {
-            let fingers = self.fingers.get(i);
+            let history = &self.histories[i * self.history..(i + 1) * self.history];
             (0..n).map(move |l| {
                 let mut p = b.get(l, ids[l]);
-                if let Some(f) = fingers {
-                    p.state.finger = Finger { xx: f[0][l], yy: f[1][l], xy: f[2][l] };
-                }
+                p.state.history.iter_mut().zip(history).for_each(|(value, lane)| *value = lane[l]);
                 p
             })
         })
@@ -246,7 +245,7 @@ impl Points {
     pub fn bytes(&self) -> usize {
         self.blocks.capacity() * size_of::<Block>()
             + self.ids.capacity() * size_of::<[u32; LANES]>()
-            + self.fingers.capacity() * size_of::<Fingers>()
+            + self.histories.capacity() * size_of::<Lane>()
     }
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::constitutive::LinearElastic;
+use crate::constitutive::{LinearElastic, NeoHookean, VonMises};
 
 /// A point of which no two numbers are alike.
 fn distinct(id: u32) -> Particle {
@@ -12,7 +12,7 @@ fn distinct(id: u32) -> Particle {
             stress: Stress { xx: n(5), yy: n(6), zz: n(7), xy: n(8) },
             opened: n(9),
             plastic_shear: n(10),
-            finger: Finger::default(),
+            history: History::default(),
         },
         volume_ratio: n(11),
     }
@@ -108,28 +108,37 @@ fn wave_speed_is_the_root_of_modulus_over_density() {
     assert!((body.p_wave_speed() - 3.0).abs() < 1e-14);
 }
 
+/// A point of a law with a history.
+fn with_history(id: u32) -> Particle {
+    let mut p = distinct(id);
+    p.state.history = std::array::from_fn(|k| f64::from(id) + 0.1 * (k + 1) as f64);
+    p
+}
+
 #[test]
-fn deformations_are_kept_for_laws_that_carry_them() {
-    use crate::constitutive::NeoHookean;
-    let deformed = |id: u32| {
-        let n = f64::from(id);
-        let mut p = distinct(id);
-        p.state.finger = Finger { xx: 0.1 + n, yy: 0.2 + n, xy: 0.3 + n };
-        p
-    };
-    for (law, carried) in [
-        (AnyLaw::NeoHookean(NeoHookean::new(1e6, 0.3)), true),
-        (AnyLaw::LinearElastic(LinearElastic::new(1e6, 0.3)), false),
+fn a_history_is_kept_as_far_as_the_law_has_one() {
+    let elastic = LinearElastic::new(1e6, 0.3);
+    let (strength, hardening, viscosity) = (1e3, 1e5, 10.0);
+    for (law, kept) in [
+        (AnyLaw::NeoHookean(NeoHookean::new(1e6, 0.3)), 3),
+        (AnyLaw::VonMises(VonMises { elastic, strength, hardening, viscosity }), 1),
+        (AnyLaw::LinearElastic(elastic), 0),
     ] {
         let mut points = Points::for_law(&law);
-        (0..11).for_each(|id| points.push(&deformed(id)));
+        (0..11).for_each(|id| points.push(&with_history(id)));
         for (p, id) in points.iter().zip(0..) {
-            let expected = if carried { deformed(id).state.finger } else { Finger::default() };
-            assert_eq!((p.id, p.state.finger), (id, expected));
+            let mut expected = with_history(id);
+            expected.state.history[kept..].fill(0.0);
+            assert_eq!(p, expected);
         }
-        assert_eq!(points.blocks_mut().1.len(), if carried { 2 } else { 0 });
+        // Two blocks; the unused lanes of the second copy the last point.
+        assert_eq!(points.blocks_mut().1.len(), 2 * kept);
+        points.pad();
+        for (k, lane) in points.blocks_mut().1[kept..].iter().enumerate() {
+            assert!(lane[3..].iter().all(|value| *value == with_history(10).state.history[k]));
+        }
         points.clear();
         points.resize(3);
-        assert!(points.iter().all(|p| p.state.finger == Finger::default()), "nothing is left of what was there");
+        assert!(points.iter().all(|p| p.state.history == History::default()), "nothing is left of what was there");
     }
 }

@@ -4,7 +4,7 @@
 //! separates.
 
 use super::elastic::LinearElastic;
-use super::{Increment, Law, PointState, Stress, cayley, midpoint_work};
+use super::{Increment, Law, PointState};
 use serde::{Deserialize, Serialize};
 
 /// How the cone is matched to the Mohr-Coulomb friction angle.
@@ -98,8 +98,8 @@ impl Law for DruckerPrager {
     #[inline(always)]
     fn update(&self, state: &mut PointState, d: &Increment) -> f64 {
         let (bulk, shear) = (self.elastic.bulk, self.elastic.shear);
-        let (c, s) = cayley(d.spin);
-        let before = state.stress.rotated(c, s);
+        let half = d.half_turn();
+        let before = state.stress.turned(half);
 
         // Opened material closes without resistance first.
         let volumetric = d.volumetric();
@@ -107,9 +107,7 @@ impl Law for DruckerPrager {
         let still_open = state.opened - closing;
         let trial = self.elastic.strain(&before, d, volumetric + closing);
 
-        let mean_trial = trial.mean();
-        let (dx, dy, dz) = (trial.xx - mean_trial, trial.yy - mean_trial, trial.zz - mean_trial);
-        let tau_trial = (0.5 * (dx * dx + dy * dy + dz * dz) + trial.xy * trial.xy).sqrt();
+        let (mean_trial, tau_trial) = (trial.mean(), trial.j2().sqrt());
 
         // Return to the cone along the flow direction, then, where that ends beyond the cut-off, to the cut-off or its edge.
         let excess = max(0.0, tau_trial + self.friction * mean_trial - self.cohesion);
@@ -126,18 +124,21 @@ impl Law for DruckerPrager {
         let tau = max(0.0, min(tau_trial, self.cohesion - self.friction * mean));
 
         let scale = if tau_trial > 0.0 { tau / tau_trial } else { 0.0 };
-        let after =
-            Stress { xx: mean + scale * dx, yy: mean + scale * dy, zz: mean + scale * dz, xy: scale * trial.xy };
+        let after = trial.deviator().times(scale).plus_mean(mean);
 
         let opening = (mean_cone - mean) * (1.0 / bulk);
         state.opened = if self.void_tracking { still_open + opening } else { 0.0 };
         state.plastic_shear += (tau_trial - tau) * (1.0 / (shear * 3f64.sqrt()));
-        state.stress = after.rotated(c, s);
-        midpoint_work(&before, &after, d)
+        state.stress = after.turned(half);
+        d.midpoint_work(&before, &after)
     }
 
     fn stored_energy(&self, state: &PointState) -> f64 {
         self.elastic.energy(&state.stress)
+    }
+
+    fn lame(&self) -> [f64; 2] {
+        self.elastic.lame()
     }
 
     fn p_wave_modulus(&self) -> f64 {

@@ -2,7 +2,7 @@
 //!
 //! Elsewhere: hypoelasticity with an objective (corotational) rate.
 
-use super::{Increment, Law, PointState, Stress, cayley, midpoint_work};
+use super::{Increment, Law, PointState, Stress};
 
 /// Isotropic linear elasticity in rate form: the Jaumann rate of the Cauchy stress is C : D.
 ///
@@ -24,15 +24,7 @@ impl LinearElastic {
     /// Adds C : de for a volumetric increment that may differ from the trace of `d` (see the void tracking of Drucker-Prager).
     #[inline(always)]
     pub(super) fn strain(&self, s: &Stress, d: &Increment, volumetric: f64) -> Stress {
-        let third = d.volumetric() * (1.0 / 3.0);
-        let p = self.bulk * volumetric;
-        let two_g = 2.0 * self.shear;
-        Stress {
-            xx: s.xx + (p + two_g * (d.xx - third)),
-            yy: s.yy + (p + two_g * (d.yy - third)),
-            zz: s.zz + (p - two_g * third),
-            xy: s.xy + two_g * d.xy,
-        }
+        s.plus(&d.deviator().times(2.0 * self.shear).plus_mean(self.bulk * volumetric))
     }
 
     #[inline(always)]
@@ -45,15 +37,19 @@ impl LinearElastic {
 impl Law for LinearElastic {
     #[inline(always)]
     fn update(&self, state: &mut PointState, d: &Increment) -> f64 {
-        let (c, s) = cayley(d.spin);
-        let before = state.stress.rotated(c, s);
+        let half = d.half_turn();
+        let before = state.stress.turned(half);
         let after = self.strain(&before, d, d.volumetric());
-        state.stress = after.rotated(c, s);
-        midpoint_work(&before, &after, d)
+        state.stress = after.turned(half);
+        d.midpoint_work(&before, &after)
     }
 
     fn stored_energy(&self, state: &PointState) -> f64 {
         self.energy(&state.stress)
+    }
+
+    fn lame(&self) -> [f64; 2] {
+        [self.bulk - 2.0 / 3.0 * self.shear, self.shear]
     }
 
     fn p_wave_modulus(&self) -> f64 {

@@ -7,47 +7,7 @@
 //! Elsewhere: hyperelasticity; b is also called the Finger tensor.
 
 use super::logarithm::log1p;
-use super::{Increment, Law, PointState, Stress};
-
-/// Left Cauchy-Green tensor less the identity, in the plane; nothing happens across it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Finger {
-    /// b_xx - 1.
-    pub xx: f64,
-    /// b_yy - 1.
-    pub yy: f64,
-    /// b_xy.
-    pub xy: f64,
-}
-
-impl Finger {
-    /// f b f^T with f = I + the increment's gradient.
-    #[inline(always)]
-    pub fn advanced(&self, d: &Increment) -> Self {
-        // The gradient by its rows, and the gradient times b.
-        let (a, b, c, e) = (d.xx, d.xy - d.spin, d.xy + d.spin, d.yy);
-        let (bx, by) = (1.0 + self.xx, 1.0 + self.yy);
-        let (g00, g01) = (a * bx + b * self.xy, a * self.xy + b * by);
-        let (g10, g11) = (c * bx + e * self.xy, c * self.xy + e * by);
-        Self {
-            xx: self.xx + (2.0 * g00 + (g00 * a + g01 * b)),
-            yy: self.yy + (2.0 * g11 + (g10 * c + g11 * e)),
-            xy: self.xy + ((g01 + g10) + (g00 * c + g01 * e)),
-        }
-    }
-
-    /// J^2 - 1 with the volume ratio J.
-    #[inline(always)]
-    fn determinant_less_one(&self) -> f64 {
-        self.xx + self.yy + (self.xx * self.yy - self.xy * self.xy)
-    }
-
-    /// Current over reference volume, J.
-    #[inline(always)]
-    pub fn volume_ratio(&self) -> f64 {
-        (1.0 + self.determinant_less_one()).sqrt()
-    }
-}
+use super::{Finger, Increment, Law, PointState, Stress};
 
 /// Neo-Hookean law with the stored energy mu/2 (tr b - 3) - mu ln J + lambda/2 (ln J)^2 per reference volume (Simo and Pister
 /// 1984): J sigma = mu (b - I) + lambda ln J I.
@@ -77,12 +37,7 @@ impl NeoHookean {
         let less_one = b.determinant_less_one();
         let per_volume = 1.0 / (1.0 + less_one).sqrt();
         let p = 0.5 * self.lame * log1p(less_one);
-        Stress {
-            xx: (self.shear * b.xx + p) * per_volume,
-            yy: (self.shear * b.yy + p) * per_volume,
-            zz: p * per_volume,
-            xy: self.shear * b.xy * per_volume,
-        }
+        b.times_plus_mean(self.shear, p).times(per_volume)
     }
 
     /// Stored energy per reference volume, J/m3.
@@ -90,30 +45,40 @@ impl NeoHookean {
     pub fn energy(&self, b: &Finger) -> f64 {
         let less_one = b.determinant_less_one();
         let ln = 0.5 * log1p(less_one);
-        0.5 * self.shear * ((b.xx + b.yy) - 2.0 * ln) + 0.5 * self.lame * ln * ln
+        0.5 * self.shear * (b.trace_less_three() - 2.0 * ln) + 0.5 * self.lame * ln * ln
     }
 }
 
 impl Law for NeoHookean {
-    const CARRIES_DEFORMATION: bool = true;
+    const HISTORY: usize = Finger::NUMBERS;
 
     #[inline(always)]
     fn update(&self, state: &mut PointState, increment: &Increment) -> f64 {
-        let before = state.finger;
-        state.finger = before.advanced(increment);
-        state.stress = self.stress(&state.finger);
+        let before = Finger::kept_in(&state.history);
+        let after = before.advanced(increment);
+        state.stress = self.stress(&after);
+        after.keep_in(&mut state.history);
         // What is stored is the work, whatever the steps.
-        let stored = self.energy(&state.finger) - self.energy(&before);
-        2.0 * stored / (before.volume_ratio() + state.finger.volume_ratio())
+        let stored = self.energy(&after) - self.energy(&before);
+        2.0 * stored / (before.volume_ratio() + after.volume_ratio())
     }
 
     #[inline(always)]
     fn volume_ratio(&self, state: &PointState, _: f64, _: &Increment) -> f64 {
-        state.finger.volume_ratio()
+        Finger::kept_in(&state.history).volume_ratio()
+    }
+
+    fn deformation(&self, state: &PointState) -> Option<Finger> {
+        Some(Finger::kept_in(&state.history))
     }
 
     fn stored_energy(&self, state: &PointState) -> f64 {
-        self.energy(&state.finger) / state.finger.volume_ratio()
+        let b = Finger::kept_in(&state.history);
+        self.energy(&b) / b.volume_ratio()
+    }
+
+    fn lame(&self) -> [f64; 2] {
+        [self.lame, self.shear]
     }
 
     /// lambda + 2 mu, at rest.
@@ -125,6 +90,7 @@ impl Law for NeoHookean {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::constitutive::HalfTurn;
     use crate::scaffold::Lcg;
     use crate::theory::elastic::Elastic;
     use crate::theory::neo_hookean::{self as theory, Gradient};
@@ -141,7 +107,7 @@ mod tests {
     }
 
     fn increment(l: &Gradient) -> Increment {
-        Increment { xx: l[0], yy: l[3], xy: 0.5 * (l[1] + l[2]), spin: 0.5 * (l[2] - l[1]) }
+        Increment { dt: 0.0, xx: l[0], yy: l[3], xy: 0.5 * (l[1] + l[2]), spin: 0.5 * (l[2] - l[1]) }
     }
 
     /// The state after going from I to `f` in `steps` equal steps of F.
@@ -188,8 +154,8 @@ mod tests {
         let mut b = start;
         for k in 1..=steps {
             b = b.advanced(&increment(&[c - 1.0, -s, s, c - 1.0]));
-            let now =
-                law().stress(&b).rotated(libm::cos(2.0 * turn * f64::from(k)), -libm::sin(2.0 * turn * f64::from(k)));
+            let back = 2.0 * turn * f64::from(k);
+            let now = law().stress(&b).turned(HalfTurn { cos2: libm::cos(back), sin2: -libm::sin(back) });
             for (a, e) in as_array(&now).iter().zip(as_array(&before)) {
                 assert!((a - e).abs() < 1e-6, "after {k} of {steps}: {a} {e}");
             }

@@ -10,7 +10,7 @@ use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::momentum::{self, BodyForces};
 use crate::shape::ShapeFunction;
-use crate::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use crate::transfer::{NodeMap, PointConstants, Scatter, StressUpdate, Transfer, VelocityUpdate};
 
 /// One stage of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,15 +112,14 @@ impl Step<'_> {
             band.work.sums.fill(NodeSum::default());
         }
         for (body, points) in of.bodies.iter().zip(&band.points) {
-            let constants = constants(body, self.side_friction);
-            transfer::scatter(what, self.half_width(body), &map, constants, points, &mut band.work.sums);
+            self.transfer(map, body).scatter(what, points, &mut band.work.sums);
         }
         let Some(AccelerationField(field)) = self.field.filter(|_| what != Scatter::Inertia) else { return };
         band.field_force.clear();
         band.field_force.resize(band.reach, [0.0; 2]);
         for (body, points) in of.bodies.iter().zip(&band.points) {
             let at = |p: &Particle| field(p, self.time);
-            transfer::scatter_field(self.half_width(body), &map, body.point_mass, &at, points, &mut band.field_force);
+            self.transfer(map, body).scatter_field(&at, points, &mut band.field_force);
         }
     }
 
@@ -134,8 +133,8 @@ impl Step<'_> {
         for (body, points) in of.bodies.iter().zip(&mut band.points) {
             let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
-            let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part = transfer::gather_velocity(l, &map, c, self.velocity, motion, points, displacement, remapped);
+            let transfer = self.transfer(map, body);
+            let part = transfer.gather_velocity(self.velocity, motion, points, displacement, remapped);
             sums.kinetic += part.kinetic;
             sums.pic_loss += part.pic_loss;
             sums.max_speed = sums.max_speed.max(part.max_speed);
@@ -154,8 +153,8 @@ impl Step<'_> {
         for (body, points) in of.bodies.iter().zip(&mut band.points) {
             let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
-            let (l, c) = (self.half_width(body), constants(body, 0.0));
-            let part = transfer::update_stress(l, body.law, &map, c, self.stress, velocity, points, displacement);
+            let transfer = self.transfer(map, body);
+            let part = transfer.update_stress(body.law, self.stress, velocity, points, displacement);
             work += part.internal_work;
             smallest = smallest.min(part.min_volume_ratio);
         }
@@ -163,12 +162,9 @@ impl Step<'_> {
         band.sums.min_volume_ratio = smallest;
     }
 
-    fn half_width(&self, body: &Body) -> f64 {
-        self.shape.half_width(body.points_per_direction)
+    fn transfer<'a>(&self, map: NodeMap<'a>, body: &Body) -> Transfer<'a> {
+        let side_friction = if body.between_side_walls { self.side_friction } else { 0.0 };
+        let constants = PointConstants { mass: body.point_mass, volume: body.point_volume, side_friction };
+        Transfer { half_width: self.shape.half_width(body.points_per_direction), map, constants }
     }
-}
-
-fn constants(body: &Body, side_friction: f64) -> PointConstants {
-    let side_friction = if body.between_side_walls { side_friction } else { 0.0 };
-    PointConstants { mass: body.point_mass, volume: body.point_volume, side_friction }
 }

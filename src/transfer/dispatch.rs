@@ -4,12 +4,12 @@
 //! no fused multiply-add is used, so the bits are the same (tested). Calling a function compiled for AVX2 or AVX-512 is
 //! `unsafe`; it is done after the processor has said that it has it. The only other `unsafe` of the crate is in [`crate::vector`].
 #![allow(unsafe_code)]
-#![expect(clippy::too_many_arguments, reason = "of borrows in a struct the compiler does not know that they are apart")]
 
-use super::{NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate, kernels};
+use super::kernels::{self, Shaped};
+use super::{Scatter, StressUpdate, Transfer, VelocityUpdate};
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Particle, Points};
-use crate::constitutive::{AnyLaw, Law};
+use crate::constitutive::{AnyLaw, Law, with_law};
 use crate::lanes::Lane;
 use crate::shape::{AveragedHat, Hat, Shape1d};
 use crate::vector::Plain;
@@ -97,36 +97,27 @@ mod wide {
     use super::*;
 
     by_vector_unit!(scatter, [S: Shape1d], [const INERTIA, const FORCE], (
-        shape: S, map: &NodeMap, constants: PointConstants, points: &Points, sums: &mut [NodeSum],
+        with: Shaped<'_, S>, points: &Points, sums: &mut [NodeSum],
     ));
     by_vector_unit!(gather_velocity, [S: Shape1d], [const REMAP], (
-        shape: S, map: &NodeMap, constants: PointConstants, update: VelocityUpdate, motion: &[[f64; 4]],
+        with: Shaped<'_, S>, update: VelocityUpdate, motion: &[[f64; 4]],
         points: &mut Points, displacement: &mut [[Lane; 2]], momentum: &mut [[f64; 2]],
     ) -> BandSums);
     by_vector_unit!(update_stress, [S: Shape1d, L: Law], [], (
-        shape: S, law: L, map: &NodeMap, constants: PointConstants, update: StressUpdate,
+        with: Shaped<'_, S>, law: L, update: StressUpdate,
         velocity: &[[f64; 2]], points: &mut Points, displacement: &mut [[Lane; 2]],
     ) -> BandSums);
 
-    pub(super) fn scatter_shape<S: Shape1d>(
-        what: Scatter,
-        shape: S,
-        map: &NodeMap,
-        constants: PointConstants,
-        points: &Points,
-        sums: &mut [NodeSum],
-    ) {
+    pub(super) fn scatter_what<S: Shape1d>(what: Scatter, with: Shaped<'_, S>, points: &Points, sums: &mut [NodeSum]) {
         match what {
-            Scatter::All => scatter::<S, true, true>(shape, map, constants, points, sums),
-            Scatter::Inertia => scatter::<S, true, false>(shape, map, constants, points, sums),
-            Scatter::Force => scatter::<S, false, true>(shape, map, constants, points, sums),
+            Scatter::All => scatter::<S, true, true>(with, points, sums),
+            Scatter::Inertia => scatter::<S, true, false>(with, points, sums),
+            Scatter::Force => scatter::<S, false, true>(with, points, sums),
         }
     }
 
-    pub(super) fn gather_shape<S: Shape1d>(
-        shape: S,
-        map: &NodeMap,
-        constants: PointConstants,
+    pub(super) fn gather<S: Shape1d>(
+        with: Shaped<'_, S>,
         update: VelocityUpdate,
         motion: &[[f64; 4]],
         points: &mut Points,
@@ -134,104 +125,73 @@ mod wide {
         momentum: &mut [[f64; 2]],
     ) -> BandSums {
         if update.remap {
-            gather_velocity::<S, true>(shape, map, constants, update, motion, points, displacement, momentum)
+            gather_velocity::<S, true>(with, update, motion, points, displacement, momentum)
         } else {
-            gather_velocity::<S, false>(shape, map, constants, update, motion, points, displacement, momentum)
+            gather_velocity::<S, false>(with, update, motion, points, displacement, momentum)
         }
     }
 
-    pub(super) fn stress_shape<S: Shape1d>(
-        shape: S,
+    pub(super) fn stress<S: Shape1d>(
+        with: Shaped<'_, S>,
         law: AnyLaw,
-        map: &NodeMap,
-        constants: PointConstants,
         update: StressUpdate,
         velocity: &[[f64; 2]],
         points: &mut Points,
         displacement: &mut [[Lane; 2]],
     ) -> BandSums {
-        match law {
-            AnyLaw::LinearElastic(law) => {
-                update_stress(shape, law, map, constants, update, velocity, points, displacement)
-            }
-            AnyLaw::DruckerPrager(law) => {
-                update_stress(shape, law, map, constants, update, velocity, points, displacement)
-            }
-            AnyLaw::NeoHookean(law) => {
-                update_stress(shape, law, map, constants, update, velocity, points, displacement)
-            }
+        with_law!(law, law => update_stress(with, law, update, velocity, points, displacement))
+    }
+}
+
+/// What an expression is with the shape function of a transfer, of its own type.
+macro_rules! with_shape {
+    ($transfer:expr, $with:ident => $value:expr) => {{
+        let Transfer { half_width, ref map, constants } = *$transfer;
+        if half_width > 0.0 {
+            let $with = Shaped { shape: AveragedHat::new(half_width), map, constants };
+            $value
+        } else {
+            let $with = Shaped { shape: Hat, map, constants };
+            $value
         }
-    }
+    }};
 }
 
-/// Particle to grid. `half_width` is that of the shape function's averaging box in cells, 0 for linear shape functions.
-pub fn scatter(
-    what: Scatter,
-    half_width: f64,
-    map: &NodeMap,
-    constants: PointConstants,
-    points: &Points,
-    sums: &mut [NodeSum],
-) {
-    if half_width > 0.0 {
-        let shape = AveragedHat::new(half_width);
-        wide::scatter_shape(what, shape, map, constants, points, sums);
-    } else {
-        wide::scatter_shape(what, Hat, map, constants, points, sums);
+// Points, displacements and nodal fields are arguments of their own: of borrows in a struct the compiler does not know that they
+// are apart.
+impl Transfer<'_> {
+    /// Particle to grid.
+    pub fn scatter(&self, what: Scatter, points: &Points, sums: &mut [NodeSum]) {
+        with_shape!(self, with => wide::scatter_what(what, with, points, sums));
     }
-}
 
-/// Particle to grid: the force of a field of accelerations (m/s2) on points of the given mass.
-pub fn scatter_field(
-    half_width: f64,
-    map: &NodeMap,
-    mass: f64,
-    acceleration: &dyn Fn(&Particle) -> [f64; 2],
-    points: &Points,
-    force: &mut [[f64; 2]],
-) {
-    if half_width > 0.0 {
-        kernels::scatter_field(AveragedHat::new(half_width), map, mass, acceleration, points, force);
-    } else {
-        kernels::scatter_field(Hat, map, mass, acceleration, points, force);
+    /// Particle to grid: the force of a field of accelerations (m/s2).
+    pub fn scatter_field(&self, acceleration: &dyn Fn(&Particle) -> [f64; 2], points: &Points, force: &mut [[f64; 2]]) {
+        with_shape!(self, with => kernels::scatter_field(with, acceleration, points, force));
     }
-}
 
-/// Grid to particle: velocity, displacement, and (MUSL) the momentum mapped back, added to `momentum`.
-pub fn gather_velocity(
-    half_width: f64,
-    map: &NodeMap,
-    constants: PointConstants,
-    update: VelocityUpdate,
-    motion: &[[f64; 4]],
-    points: &mut Points,
-    displacement: &mut [[Lane; 2]],
-    momentum: &mut [[f64; 2]],
-) -> BandSums {
-    if half_width > 0.0 {
-        let shape = AveragedHat::new(half_width);
-        wide::gather_shape(shape, map, constants, update, motion, points, displacement, momentum)
-    } else {
-        wide::gather_shape(Hat, map, constants, update, motion, points, displacement, momentum)
+    /// Grid to particle: velocity, displacement, and (MUSL) the momentum mapped back, added to `momentum`.
+    pub fn gather_velocity(
+        &self,
+        update: VelocityUpdate,
+        motion: &[[f64; 4]],
+        points: &mut Points,
+        displacement: &mut [[Lane; 2]],
+        momentum: &mut [[f64; 2]],
+    ) -> BandSums {
+        with_shape!(self, with => wide::gather(with, update, motion, points, displacement, momentum))
     }
-}
 
-/// Grid to particle: strain, stress, volume, and the move of the step.
-pub fn update_stress(
-    half_width: f64,
-    law: AnyLaw,
-    map: &NodeMap,
-    constants: PointConstants,
-    update: StressUpdate,
-    velocity: &[[f64; 2]],
-    points: &mut Points,
-    displacement: &mut [[Lane; 2]],
-) -> BandSums {
-    if half_width > 0.0 {
-        let shape = AveragedHat::new(half_width);
-        wide::stress_shape(shape, law, map, constants, update, velocity, points, displacement)
-    } else {
-        wide::stress_shape(Hat, law, map, constants, update, velocity, points, displacement)
+    /// Grid to particle: strain, stress, volume, and the move of the step.
+    pub fn update_stress(
+        &self,
+        law: AnyLaw,
+        update: StressUpdate,
+        velocity: &[[f64; 2]],
+        points: &mut Points,
+        displacement: &mut [[Lane; 2]],
+    ) -> BandSums {
+        with_shape!(self, with => wide::stress(with, law, update, velocity, points, displacement))
     }
 }
 

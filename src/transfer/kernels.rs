@@ -4,12 +4,11 @@
 //! FLIP/PIC blending.
 
 #![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
-#![expect(clippy::too_many_arguments, reason = "of borrows in a struct the compiler does not know that they are apart")]
 
 use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
 use crate::band::{BandSums, NodeSum};
 use crate::body::{Block, Particle, Points};
-use crate::constitutive::{Finger, Increment, Law, PointState, Stress};
+use crate::constitutive::{AnyLaw, History, Increment, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane, floor_to_int};
 use crate::shape::{STENCIL, Shape1d};
 use crate::vector::{Pack4, Pack8, Unit};
@@ -18,6 +17,14 @@ use crate::vector::{Pack4, Pack8, Unit};
 const AHEAD: usize = 4;
 
 const ZERO: Lane = [0.0; LANES];
+
+/// What stays the same over a loop: shape function, nodes, and properties of the body.
+#[derive(Debug, Clone, Copy)]
+pub struct Shaped<'a, S> {
+    pub shape: S,
+    pub map: &'a NodeMap<'a>,
+    pub constants: PointConstants,
+}
 
 /// Stencils of eight points: first node of each column, weights and gradients in each direction.
 struct Stencils {
@@ -97,12 +104,11 @@ fn transpose<U: Unit>(lanes: &[Lane; 8], points: &mut [[f64; 8]; LANES]) {
 /// Particle to grid: mass and momentum (`INERTIA`), internal force (`FORCE`).
 #[inline(always)]
 pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
-    shape: S,
-    map: &NodeMap,
-    constants: PointConstants,
+    with: Shaped<'_, S>,
     points: &Points,
     sums: &mut [NodeSum],
 ) {
+    let Shaped { shape, map, constants } = with;
     let m = if INERTIA { constants.mass } else { 0.0 };
     let mut stencil = Stencils::EMPTY;
     // In the layout of NodeSum: gradients along x act on the fifth and sixth number, along y on the last two.
@@ -164,18 +170,17 @@ pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
 
 /// Particle to grid: the force of a field of accelerations. Not in the hot path, so one point at a time.
 pub fn scatter_field<S: Shape1d>(
-    shape: S,
-    map: &NodeMap,
-    mass: f64,
+    with: Shaped<'_, S>,
     acceleration: &dyn Fn(&Particle) -> [f64; 2],
     points: &Points,
     force: &mut [[f64; 2]],
 ) {
+    let Shaped { shape, map, constants } = with;
     let mut stencil = Stencils::EMPTY;
     for ((block, n), ids) in points.blocks().zip(points.ids()) {
         stencil.evaluate(shape, map, block);
         for l in 0..n {
-            let f = acceleration(&block.get(l, ids[l])).map(|a| mass * a);
+            let f = acceleration(&block.get(l, ids[l])).map(|a| constants.mass * a);
             for i in 0..STENCIL {
                 let nodes = &mut force[stencil.first[i][l]..][..STENCIL];
                 for (j, node) in nodes.iter_mut().enumerate() {
@@ -190,15 +195,14 @@ pub fn scatter_field<S: Shape1d>(
 /// Grid to particle: velocity (FLIP with a share of PIC) and displacement; maps the new momentum back if asked (`REMAP`).
 #[inline(always)]
 pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
-    shape: S,
-    map: &NodeMap,
-    constants: PointConstants,
+    with: Shaped<'_, S>,
     update: VelocityUpdate,
     motion: &[[f64; 4]],
     points: &mut Points,
     displacement: &mut [[Lane; 2]],
     momentum: &mut [[f64; 2]],
 ) -> BandSums {
+    let Shaped { shape, map, constants } = with;
     let m = constants.mass;
     let (mut kinetic, mut lost, mut fastest, mut farthest) = (ZERO, ZERO, ZERO, ZERO);
     let (mut stencil, mut seen) = (Stencils::EMPTY, [ZERO; 4]);
@@ -279,20 +283,19 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
 /// Grid to particle: velocity gradient, stress update and volume, then the displacement of the step.
 #[inline(always)]
 pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
-    shape: S,
+    with: Shaped<'_, S>,
     law: L,
-    map: &NodeMap,
-    constants: PointConstants,
     update: StressUpdate,
     velocity: &[[f64; 2]],
     points: &mut Points,
     displacement: &mut [[Lane; 2]],
 ) -> BandSums {
+    let Shaped { shape, map, constants } = with;
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
     let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
     let len = points.len();
-    let (blocks, all_fingers) = points.blocks_mut();
+    let (blocks, histories) = points.blocks_mut();
     for (number, dx) in displacement.iter().enumerate() {
         if let Some(soon) = blocks.get(number + 1) {
             U::prefetch(soon);
@@ -316,10 +319,12 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
         // dv_x/dx, dv_y/dx, dv_x/dy, dv_y/dy
         columns::<U>(rows, &mut gradient);
         // Loaded and stored whole, so that nothing keeps the loop over the lanes from becoming vectors.
-        let mut fingers = all_fingers.get_mut(number).filter(|_| L::CARRIES_DEFORMATION);
-        let mut finger = fingers.as_ref().map_or([ZERO; 3], |f| **f);
+        let own = &mut histories[number * L::HISTORY..(number + 1) * L::HISTORY];
+        let mut history = [ZERO; AnyLaw::HISTORY];
+        history[..L::HISTORY].copy_from_slice(own);
         for l in 0..LANES {
             let increment = Increment {
+                dt: update.dt,
                 xx: update.dt * gradient[0][l],
                 yy: update.dt * gradient[3][l],
                 xy: 0.5 * update.dt * (gradient[2][l] + gradient[1][l]),
@@ -334,8 +339,11 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
                 },
                 opened: block.opened[l],
                 plastic_shear: block.plastic_shear[l],
-                finger: Finger { xx: finger[0][l], yy: finger[1][l], xy: finger[2][l] },
+                history: History::default(),
             };
+            for k in 0..L::HISTORY {
+                state.history[k] = history[k][l];
+            }
             let density = law.update(&mut state, &increment);
             let before = block.volume_ratio[l];
             let after = law.volume_ratio(&state, before, &increment);
@@ -349,11 +357,11 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
             block.stress[3][l] = state.stress.xy;
             block.opened[l] = state.opened;
             block.plastic_shear[l] = state.plastic_shear;
-            (finger[0][l], finger[1][l], finger[2][l]) = (state.finger.xx, state.finger.yy, state.finger.xy);
+            for k in 0..L::HISTORY {
+                history[k][l] = state.history[k];
+            }
         }
-        if let Some(f) = &mut fingers {
-            **f = finger;
-        }
+        own.copy_from_slice(&history[..L::HISTORY]);
         if update.move_after {
             for d in 0..2 {
                 for l in 0..LANES {

@@ -8,9 +8,7 @@
 mod dispatch;
 mod kernels;
 
-pub use dispatch::{
-    VectorUnit, gather_velocity, limit_vector_unit, scatter, scatter_field, update_stress, vector_unit,
-};
+pub use dispatch::{VectorUnit, limit_vector_unit, vector_unit};
 
 use crate::grid::ActiveGrid;
 use crate::shape::STENCIL;
@@ -35,6 +33,17 @@ pub struct PointConstants {
     pub volume: f64,
     /// Side-wall friction: force per volume and out-of-plane pressure, 2 mu / width, 1/m.
     pub side_friction: f64,
+}
+
+/// What all transfers between the points of a body and the nodes of a band have in common.
+#[derive(Debug, Clone, Copy)]
+pub struct Transfer<'a> {
+    /// Half-width of the shape function's averaging box in cells, 0 for linear shape functions.
+    pub half_width: f64,
+    /// Where the nodal fields of the band are.
+    pub map: NodeMap<'a>,
+    /// Properties of the body.
+    pub constants: PointConstants,
 }
 
 /// How the velocity of the points follows the grid.
@@ -86,3 +95,6 @@ impl<'a> NodeMap<'a> {
         rows.map(|row| (row + j - self.first_node) as usize)
     }
 }
+
+#[cfg(test)]
+mod tests;

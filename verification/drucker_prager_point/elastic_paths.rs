@@ -28,7 +28,7 @@ fn simple_shear<L: Law>(name: &str, law: &L, outcome: &mut Outcome, rows: &mut V
         let mut state = PointState::default();
         let mut worst = 0.0f64;
         for k in 1..=steps {
-            law.update(&mut state, &Increment { xx: 0.0, yy: 0.0, xy: 0.5 * d, spin: -0.5 * d });
+            law.update(&mut state, &Increment { xy: 0.5 * d, spin: -0.5 * d, ..Increment::default() });
             let now = d * f64::from(k);
             let (xy, xx) = (jaumann::shear_stress(g, now), jaumann::normal_stress(g, now));
             let s = state.stress;
@@ -82,7 +82,7 @@ fn rotation<L: Law>(name: &str, law: &L, outcome: &mut Outcome) {
         let spin = angle / f64::from(steps);
         let mut state = PointState { stress: start, ..PointState::default() };
         for _ in 0..steps {
-            law.update(&mut state, &Increment { xx: 0.0, yy: 0.0, xy: 0.0, spin });
+            law.update(&mut state, &Increment { spin, ..Increment::default() });
         }
         let s = state.stress;
         if steps == 400 {

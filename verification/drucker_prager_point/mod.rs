@@ -108,7 +108,7 @@ fn law_at(phi: f64, cone: Cone, psi: f64, cohesion: f64, poisson: f64, fault: &F
 }
 
 fn strain(xx: f64, yy: f64, xy: f64) -> Increment {
-    Increment { xx, yy, xy, spin: 0.0 }
+    Increment { xx, yy, xy, ..Increment::default() }
 }
 
 /// Advances `state` by an increment of which one component, set by `with`, is such that `stress` of the state vanishes:

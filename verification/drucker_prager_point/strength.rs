@@ -275,7 +275,7 @@ fn cohesive(fault: &Fault, outcome: &mut Outcome) {
             let mut state = PointState::default();
             for _ in 0..200 {
                 // Not purely volumetric: the shear must go as well.
-                law.update(&mut state, &Increment { xx: 1.2e-4, yy: 0.9e-4, xy: 0.2e-4, spin: 0.0 });
+                law.update(&mut state, &Increment { xx: 1.2e-4, yy: 0.9e-4, xy: 0.2e-4, ..Increment::default() });
             }
             let at = if cut.is_finite() { "at the cut-off of 500 Pa" } else { "at the apex" };
             outcome.check(

@@ -10,7 +10,7 @@ use checkdam::grid::{ActiveGrid, Lattice};
 use checkdam::layout::{SortRules, Sorter};
 use checkdam::shape::ShapeFunction;
 use checkdam::theory::jaumann::turned;
-use checkdam::transfer::{self, NodeMap, PointConstants, Scatter, StressUpdate, VelocityUpdate};
+use checkdam::transfer::{NodeMap, PointConstants, Scatter, StressUpdate, Transfer, VelocityUpdate};
 
 const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 const H: f64 = 0.01;
@@ -93,7 +93,8 @@ impl Bench {
         let (mut mass_scale, mut force_scale) = (0.0, 0.0);
         for band in &mut self.bands {
             let map = NodeMap::new(&self.grid, band.first_node);
-            transfer::scatter(Scatter::All, self.half_width, &map, constants, &band.points[0], &mut band.work.sums);
+            let transfer = Transfer { half_width: self.half_width, map, constants };
+            transfer.scatter(Scatter::All, &band.points[0], &mut band.work.sums);
             for (k, sum) in band.work.sums.iter().enumerate() {
                 let x = positions[band.first_node + k];
                 let (m, [fx, fy]) = (sum.mass(), sum.force());
@@ -143,26 +144,9 @@ impl Bench {
                 p.state = Default::default();
                 points.set(i, &p);
             }
-            transfer::gather_velocity(
-                self.half_width,
-                &map,
-                constants,
-                velocity,
-                &work.motion,
-                points,
-                &mut work.moved,
-                &mut work.remapped,
-            );
-            transfer::update_stress(
-                self.half_width,
-                self.body.law,
-                &map,
-                constants,
-                stress,
-                &work.strain_velocity,
-                points,
-                &mut work.moved,
-            );
+            let transfer = Transfer { half_width: self.half_width, map, constants };
+            transfer.gather_velocity(velocity, &work.motion, points, &mut work.moved, &mut work.remapped);
+            transfer.update_stress(self.body.law, stress, &work.strain_velocity, points, &mut work.moved);
             for p in points.iter() {
                 let v = field(p.x);
                 let s = p.state.stress;

@@ -1,7 +1,7 @@
 //! How a barrier bends, and whether its points still hold together.
 
 use super::StructureGauge;
-use crate::constitutive::Finger;
+use crate::constitutive::{Finger, Law};
 use crate::contact::Vector;
 use crate::simulation::Simulation;
 use nalgebra::Vector2;
@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 pub(super) struct Place {
     pub x: Vector,
     pub v: Vector,
-    /// Largest principal stretch by the law.
+    /// Largest principal stretch by the law; 1 for laws that keep no left Cauchy-Green tensor.
     pub stretch: f64,
 }
 
@@ -47,9 +47,11 @@ pub struct ProfilePoint {
 impl StructureGauge {
     /// Finds where the points and the surface are now.
     pub(super) fn follow(&mut self, simulation: &Simulation) {
+        let law = simulation.bodies()[self.body].law;
         self.points.fill(None);
         for p in simulation.points_of(self.body) {
-            self.points[p.id as usize] = Some(Place { x: p.x, v: p.v, stretch: largest_stretch(&p.state.finger) });
+            let stretch = law.deformation(&p.state).as_ref().map_or(1.0, Finger::largest_stretch);
+            self.points[p.id as usize] = Some(Place { x: p.x, v: p.v, stretch });
         }
         for (surface, ring) in self.surfaces.iter_mut().zip(&self.outline.rings) {
             surface.follow(ring.iter().filter_map(|&id| self.points[id as usize]).map(|p| p.x));
@@ -107,10 +109,4 @@ impl StructureGauge {
         }
         widest
     }
-}
-
-/// Largest principal stretch in the plane; 1 for laws that carry no left Cauchy-Green tensor.
-fn largest_stretch(b: &Finger) -> f64 {
-    let (mean, half) = (0.5 * (b.xx + b.yy), 0.5 * (b.xx - b.yy));
-    (1.0 + mean + (half * half + b.xy * b.xy).sqrt()).max(0.0).sqrt()
 }

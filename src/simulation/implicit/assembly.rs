@@ -3,19 +3,10 @@
 //! Elsewhere: assembly of lumped mass and of the stiffness (tangent) matrix.
 
 use super::{Banded, ImplicitBody, Point, TOUCHABLE};
-use crate::constitutive::AnyLaw;
+use crate::constitutive::Law;
 use crate::lanes::floor_to_int;
 use crate::shape::{AveragedHat, Hat, STENCIL, Shape1d, ShapeFunction};
 use crate::simulation::field::VelocityField;
-
-/// Lame's parameters lambda and mu, Pa.
-fn lame(law: &AnyLaw) -> [f64; 2] {
-    match law {
-        AnyLaw::LinearElastic(e) => [e.bulk - 2.0 / 3.0 * e.shear, e.shear],
-        AnyLaw::DruckerPrager(dp) => [dp.elastic.bulk - 2.0 / 3.0 * dp.elastic.shear, dp.elastic.shear],
-        AnyLaw::NeoHookean(law) => [law.lame, law.shear],
-    }
-}
 
 fn weights(half_width: f64, r: f64) -> ([f64; STENCIL], [f64; STENCIL]) {
     if half_width > 0.0 { AveragedHat::new(half_width).eval(r) } else { Hat.eval(r) }
@@ -47,6 +38,7 @@ impl ImplicitBody {
         self.shared.clear();
         self.slots.clear();
         self.dt = 0.0;
+        self.since = 0.0;
     }
 
     fn find_points(&mut self, field: &VelocityField, shape: ShapeFunction) {
@@ -115,7 +107,7 @@ impl ImplicitBody {
 
     fn assemble(&mut self, field: &VelocityField) {
         let body = &field.bodies[0];
-        let [lambda, mu] = lame(&body.law);
+        let [lambda, mu] = body.law.lame();
         let spread = |p: &Point| {
             let (low, high) = p.nodes.iter().fold((u32::MAX, 0), |(l, h), &n| (l.min(n), h.max(n)));
             (high - low) as usize

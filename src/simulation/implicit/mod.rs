@@ -101,6 +101,8 @@ pub(super) struct ImplicitBody {
     /// Step for which the factor holds, s.
     dt: f64,
     velocity: Vec<f64>,
+    /// Time since the sort, s, and displacement since then, m.
+    since: f64,
     displacement: Vec<f64>,
     /// Velocity at the sort as the points give it, m/s.
     start: Vec<f64>,

@@ -52,6 +52,7 @@ impl ImplicitBody {
             }
         }
         let between = |old: f64, new: f64| (1.0 - THETA) * old + THETA * new;
+        self.since += dt;
         for (d, (old, new)) in self.displacement.iter_mut().zip(self.velocity.iter().zip(&new)) {
             *d += dt * between(*old, *new);
         }
@@ -158,6 +159,7 @@ impl ImplicitBody {
                     slope[3] += g[1] * d[1];
                 }
                 let increment = Increment {
+                    dt: self.since,
                     xx: slope[0],
                     yy: slope[3],
                     xy: 0.5 * (slope[1] + slope[2]),

@@ -250,7 +250,7 @@ fn the_stretch_of_a_point_is_the_largest_of_its_deformation() {
             };
             let mut scene = VIEWS[0].scene([vec![], vec![]]);
             scene.bodies[0].0.law = AnyLaw::NeoHookean(crate::constitutive::NeoHookean::new(1e6, 0.2));
-            scene.bodies[0].1.iter_mut().for_each(|p| p.state.finger = finger);
+            scene.bodies[0].1.iter_mut().for_each(|p| finger.keep_in(&mut p.state.history));
             let sim = Simulation::new(scene);
             let gauge = VIEWS[0].gauge(&sim);
             assert!(gauge.points.iter().flatten().all(|p| near(p.stretch, f64::max(a, b))), "{a} {b} {angle}");

@@ -3,7 +3,7 @@
 use super::reference::{H, POISSON, Reference, YOUNG, apart, wall};
 use crate::body::Particle;
 use crate::boundary::nodes::Tally;
-use crate::constitutive::{AnyLaw, Cone, DruckerPrager, Law, LinearElastic, NeoHookean};
+use crate::constitutive::{AnyLaw, Cone, DruckerPrager, Increment, Law, LinearElastic, NeoHookean, VonMises};
 use crate::momentum::{BodyForces, Drag};
 use crate::scaffold::{Brick, Lcg, scene};
 use crate::shape::ShapeFunction;
@@ -76,12 +76,16 @@ struct Alone {
     sim: Simulation,
     /// No step has ended yet since the sort.
     first: bool,
+    /// Time since then, s.
+    since: f64,
 }
 
 impl Alone {
     /// The first of every three nodes of a band is shared with a field that is not there.
     fn new(shared: bool) -> Self {
-        let sim = wall(ShapeFunction::Ugimp, AnyLaw::LinearElastic(elastic()));
+        // Its points flow, in a time that matters; its nodes are moved as if it were elastic.
+        let law = VonMises { elastic: elastic(), strength: 200.0, hardening: 1e5, viscosity: 2e3 };
+        let sim = wall(ShapeFunction::Ugimp, AnyLaw::VonMises(law));
         let (mut body, mut field) = (sim.implicit[0].clone(), sim.fields[0].clone());
         let reference = Reference::new(&sim, &body);
         field.bands.iter_mut().for_each(crate::band::Band::make_room);
@@ -92,13 +96,14 @@ impl Alone {
             }
         }
         body.follow(&field);
-        Self { body, field, reference, sim, first: true }
+        Self { body, field, reference, sim, first: true, since: 0.0 }
     }
 
     /// Ends a step that began with these velocities and displacements, and checks everything that it leaves behind. `impulses`
     /// are those of contact at the nodes.
     fn finish(&mut self, old: [Vec<f64>; 2], impulses: &[f64], forces: BodyForces, dt: f64) {
-        let Self { body, field, reference, sim, .. } = self;
+        self.since += dt;
+        let Self { body, field, reference, sim, since, .. } = self;
         let [velocity, displacement] = old;
         let before = Books::of(body, field);
         body.finish(field, sim.boundaries(), forces, dt);
@@ -165,7 +170,7 @@ impl Alone {
             assert!(
                 (0..2).all(|e| (p.x[e] - base.x[e] - d[e]).abs() < 1e-12 && (p.v[e] - base.v[e] - v[e]).abs() < 1e-9)
             );
-            let increment = reference.increment(k, &moved);
+            let increment = Increment { dt: *since, ..reference.increment(k, &moved) };
             let (law, mut state) = (reference.body.law, base.state);
             law.update(&mut state, &increment);
             let (s, t) = (p.state.stress, state.stress);

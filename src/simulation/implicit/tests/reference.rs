@@ -113,7 +113,8 @@ impl Reference {
             self.seen[point].iter().map(|(k, _, g)| g[e] * displacement[2 * k + d]).sum()
         };
         let [xy, yx] = [slope(0, 1), slope(1, 0)];
-        Increment { xx: slope(0, 0), yy: slope(1, 1), xy: (xy + yx) / 2.0, spin: (yx - xy) / 2.0 }
+        let (xy, spin) = ((xy + yx) / 2.0, (yx - xy) / 2.0);
+        Increment { xx: slope(0, 0), yy: slope(1, 1), xy, spin, ..Increment::default() }
     }
 
     /// Force with which the stresses at the sort, and those of displacements since, pull at the nodes, N.

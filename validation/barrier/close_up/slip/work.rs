@@ -37,6 +37,7 @@ mod tests {
             let t = f64::from(k) * 0.01;
             // Compressed, sheared to and fro, torn apart and closed again.
             let d = Increment {
+                dt: 0.01,
                 xx: -1e-5 * libm::cos(0.7 * t),
                 yy: -2e-5 * libm::cos(0.3 * t),
                 xy: 4e-5 * libm::sin(1.3 * t),
