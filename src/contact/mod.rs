@@ -5,7 +5,7 @@
 //! friction along the surface between them, and gives it to both with opposite signs (Bardenhagen, Brackbill and Sulsky 2000;
 //! Ng et al., Appendix B).
 //!
-//! - [`pair`] is the law for two bodies: impulse, stick and slip, work; [`node`] solves it for any number of bodies at a node.
+//! - [`side`] is one body at a node; [`pair`] is the law for two: impulse, stick and slip, work; [`node`] solves it for any number.
 //! - [`normal`], [`regression`] and [`outline`] say how the surface lies, [`separation`] how far apart the bodies are.
 //!
 //! - [`rule`] is what a user chooses.
@@ -20,6 +20,7 @@ pub mod pair;
 pub mod regression;
 pub mod rule;
 pub mod separation;
+pub mod side;
 
 #[cfg(test)]
 mod tests;

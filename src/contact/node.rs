@@ -10,41 +10,13 @@
 //! add up to the change of the node's kinetic energy exactly.
 
 use super::pair::{State, Touch};
+use super::side::Side;
 use super::{Vector, dot, minus};
 
 /// Most visits to each pair where impulses depend on each other.
 const SWEEPS: usize = 400;
 /// Velocities that change by less than this share of the largest are final.
 const SETTLED: f64 = 1e-14;
-
-/// One body at a node.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Side {
-    /// Mass, kg, above zero.
-    pub mass: f64,
-    /// Velocity before the step, m/s.
-    pub old: Vector,
-    /// Velocity after the momentum balance, m/s; contact replaces it.
-    pub velocity: Vector,
-    /// Whether a clamp prescribes the velocity: contact leaves it alone, and the impulse goes into the clamp.
-    pub fixed: bool,
-    /// Whether other boundaries act on the body.
-    pub held: bool,
-}
-
-impl Side {
-    /// Velocity per impulse, 1/kg.
-    #[inline(always)]
-    pub(super) fn mobility(&self) -> f64 {
-        if self.fixed { 0.0 } else { 1.0 / self.mass }
-    }
-
-    /// Mean of the velocities before and after the step, m/s.
-    #[inline(always)]
-    pub fn mean(&self) -> Vector {
-        [0.5 * (self.old[0] + self.velocity[0]), 0.5 * (self.old[1] + self.velocity[1])]
-    }
-}
 
 /// Solves the contact of all bodies at a node: replaces their velocities, and fills in impulses and states of the touches.
 ///

@@ -1,6 +1,6 @@
 //! Two bodies at a node: the impulse between them, by Signorini's and Coulomb's conditions.
 
-use super::node::Side;
+use super::side::Side;
 use super::{Vector, minus};
 
 /// How two bodies move at a node.

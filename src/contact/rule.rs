@@ -1,9 +1,9 @@
 //! What a user chooses about the contact of two bodies.
 
 use super::Vector;
-use super::node::Side;
 use super::pair::Exchange;
 use super::separation::TOUCHING;
+use super::side::Side;
 
 /// How the normal between two bodies is found at a node.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,9 +3,12 @@
 //! Momentum is booked by agent, energy by mechanism. Every entry is measured where it happens (at the node, at the point);
 //! none is inferred from another, so what does not add up shows as a residual.
 
+mod drag;
+
 use crate::boundary::nodes::Tally;
 use crate::contact::rule::ContactTally;
-use crate::momentum::Drag;
+
+pub use drag::{Distributed, Drag};
 
 /// Sums since the ledger was opened. Impulses act on the material; works are done on the material.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -1,7 +1,8 @@
 //! The law at a node against closed forms and its own conditions.
 
-use crate::contact::node::{Side, project, solve, solve_held};
+use crate::contact::node::{project, solve, solve_held};
 use crate::contact::pair::{Exchange, State, Touch};
+use crate::contact::side::Side;
 use crate::contact::{Vector, dot, minus};
 use crate::scaffold::Lcg;
 

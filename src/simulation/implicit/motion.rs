@@ -6,7 +6,8 @@ use crate::body::Particle;
 use crate::boundary::Boundary;
 use crate::boundary::nodes::Tally;
 use crate::constitutive::{AnyLaw, Increment, Law};
-use crate::momentum::{BodyForces, Distributed};
+use crate::ledger::Distributed;
+use crate::momentum::BodyForces;
 use crate::simulation::field::VelocityField;
 use crate::simulation::sweep::together;
 
