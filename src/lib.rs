@@ -47,6 +47,7 @@ pub mod shape;
 pub mod simulation;
 #[cfg(test)]
 mod solver_tests;
+pub mod space;
 pub mod study;
 pub mod theory;
 pub mod timestep;

@@ -1,8 +1,9 @@
 //! Which segment of a ring is nearest: runs of eight segments in boxes, eight boxes in a larger one, and so on, so that most
 //! segments are never looked at. Eight boxes or segments at a time are plain loops that the compiler turns into vectors.
 
-use super::{Vector, minus};
+use super::Vector;
 use crate::lanes::{LANES, Lane};
+use crate::space::minus;
 
 /// Eight boxes; those that are missing are infinitely far away.
 #[derive(Debug, Clone, Copy)]

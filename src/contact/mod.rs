@@ -27,20 +27,3 @@ mod tests;
 
 /// A vector in the plane.
 pub type Vector = [f64; 2];
-
-#[inline(always)]
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-#[inline(always)]
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-/// The unit vector along `a`; none where `a` is not longer than `least`.
-#[inline]
-pub fn direction(a: Vector, least: f64) -> Option<Vector> {
-    let length = dot(a, a).sqrt();
-    (length > least).then(|| [a[0] / length, a[1] / length])
-}

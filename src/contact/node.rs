@@ -9,9 +9,10 @@
 //! impulse times the mean of the velocities before and after the step: with all other agents counted in the same way the works
 //! add up to the change of the node's kinetic energy exactly.
 
+use super::Vector;
 use super::pair::{State, Touch};
 use super::side::Side;
-use super::{Vector, dot, minus};
+use crate::space::{dot, minus, plus, scaled};
 
 /// Most visits to each pair where impulses depend on each other.
 const SWEEPS: usize = 400;
@@ -115,13 +116,11 @@ pub fn project(sides: &mut [Side], touches: &[Touch]) {
                 State::Sticking => relative,
                 _ => {
                     let approach = (dot(relative, touch.normal) - touch.slack).max(0.0);
-                    [approach * touch.normal[0], approach * touch.normal[1]]
+                    scaled(touch.normal, approach)
                 }
             };
-            for (d, v) in stop.into_iter().enumerate() {
-                sides[a].velocity[d] -= to_a / mobility * v;
-                sides[b].velocity[d] += to_b / mobility * v;
-            }
+            sides[a].velocity = minus(sides[a].velocity, scaled(stop, to_a / mobility));
+            sides[b].velocity = plus(sides[b].velocity, scaled(stop, to_b / mobility));
         }
     }
 }

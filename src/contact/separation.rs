@@ -8,8 +8,9 @@
 //! - from displacements since the bodies touched: for bodies that start in contact and slide little;
 //! - from the points nearest to the surface and their size (Nairn, Hammerquist and Smith 2020): exact for straight surfaces.
 
+use super::Vector;
 use super::normal::Sample;
-use super::{Vector, dot, minus};
+use crate::space::{dot, minus};
 
 /// Share of a cell by which mean positions at a node are apart when two bodies with two points per cell and direction touch.
 pub const TOUCHING: f64 = 0.8;

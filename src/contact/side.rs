@@ -1,6 +1,7 @@
 //! What a node knows of one of the bodies that meet there.
 
 use super::Vector;
+use crate::space::mean;
 
 /// One body at a node.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,6 +28,6 @@ impl Side {
     /// Mean of the velocities before and after the step, m/s.
     #[inline(always)]
     pub fn mean(&self) -> Vector {
-        [0.5 * (self.old[0] + self.velocity[0]), 0.5 * (self.old[1] + self.velocity[1])]
+        mean(self.old, self.velocity)
     }
 }

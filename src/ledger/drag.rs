@@ -1,5 +1,7 @@
 //! What forces that act throughout the material did in a step.
 
+use crate::space::{dot, plus};
+
 /// Impulse and work of a distributed force on the material in one step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Drag {
@@ -12,15 +14,13 @@ pub struct Drag {
 impl Drag {
     /// Adds an impulse (N s) on what moves at `mean` (m/s), the mean of its velocities before and after.
     pub fn add(&mut self, impulse: [f64; 2], mean: [f64; 2]) {
-        self.impulse[0] += impulse[0];
-        self.impulse[1] += impulse[1];
-        self.work += impulse[0] * mean[0] + impulse[1] * mean[1];
+        self.impulse = plus(self.impulse, impulse);
+        self.work += dot(impulse, mean);
     }
 
     /// Adds another drag.
     pub fn merge(&mut self, other: &Drag) {
-        self.impulse[0] += other.impulse[0];
-        self.impulse[1] += other.impulse[1];
+        self.impulse = plus(self.impulse, other.impulse);
         self.work += other.work;
     }
 }
