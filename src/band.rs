@@ -11,7 +11,7 @@
 use crate::body::Points;
 use crate::boundary::nodes::{Hold, Tally};
 use crate::lanes::Lane;
-use crate::momentum::Distributed;
+use crate::ledger::Distributed;
 
 /// What points add to one node: a cache line, and the width in which the scatter works.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

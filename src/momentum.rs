@@ -9,42 +9,8 @@
 use crate::band::{Band, NodeSum, OpenNode};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Hold, Tally};
-
-/// Impulse and work of a distributed force on the material in one step.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Drag {
-    /// N s.
-    pub impulse: [f64; 2],
-    /// J, negative when it dissipates.
-    pub work: f64,
-}
-
-impl Drag {
-    /// Adds an impulse (N s) on what moves at `mean` (m/s), the mean of its velocities before and after.
-    pub fn add(&mut self, impulse: [f64; 2], mean: [f64; 2]) {
-        self.impulse[0] += impulse[0];
-        self.impulse[1] += impulse[1];
-        self.work += impulse[0] * mean[0] + impulse[1] * mean[1];
-    }
-
-    /// Adds another drag.
-    pub fn merge(&mut self, other: &Drag) {
-        self.impulse[0] += other.impulse[0];
-        self.impulse[1] += other.impulse[1];
-        self.work += other.work;
-    }
-}
-
-/// Impulse and work of everything that acts throughout the material but gravity.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Distributed {
-    /// Mass-proportional damping.
-    pub damping: Drag,
-    /// Side-wall friction.
-    pub side_walls: Drag,
-    /// A field of accelerations, where one is set.
-    pub field: Drag,
-}
+use crate::ledger::Distributed;
+use crate::space::{mean, minus, norm, plus, scaled};
 
 /// What acts on every node alike.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,7 +84,7 @@ pub fn remapped_velocities(mut before: Option<&mut Band>, band: &mut Band) {
     for (i, &m) in work.mass.iter().enumerate() {
         let mut p = work.remapped[i];
         if let Some(first) = momenta.get(i) {
-            p = [p[0] + first[0], p[1] + first[1]];
+            p = plus(p, *first);
         }
         work.strain_velocity[i] = per_mass(m, p);
     }
@@ -131,12 +97,14 @@ pub fn remapped_velocities(mut before: Option<&mut Band>, band: &mut Band) {
 
 #[inline(always)]
 fn per_mass(m: f64, p: [f64; 2]) -> [f64; 2] {
-    if m > 0.0 {
-        let per = 1.0 / m;
-        [p[0] * per, p[1] * per]
-    } else {
-        [0.0; 2]
-    }
+    if m > 0.0 { scaled(p, 1.0 / m) } else { [0.0; 2] }
+}
+
+/// New velocity and its change, side by side as the points read them.
+#[inline(always)]
+fn motion(old: [f64; 2], v: [f64; 2]) -> [f64; 4] {
+    let change = minus(v, old);
+    [v[0], v[1], change[0], change[1]]
 }
 
 /// Applies the contact state of each held node to the velocity that strains the material.
@@ -190,31 +158,29 @@ fn balance_nodes<const SHARED: bool>(
             continue;
         }
         let per_m = 1.0 / m;
-        let p = sum.momentum();
-        let old = [p[0] * per_m, p[1] * per_m];
+        let old = scaled(sum.momentum(), per_m);
         let mut f = sum.force();
         let field = band.field_force.get(i).copied();
         if let Some(field) = field {
-            f = [f[0] + field[0], f[1] + field[1]];
+            f = plus(f, field);
         }
-        let g = forces.gravity;
-        let mut v = [old[0] + dt * (f[0] * per_m + g[0]), old[1] + dt * (f[1] * per_m + g[1])];
+        let mut v = plus(old, scaled(plus(scaled(f, per_m), forces.gravity), dt));
         let mut damped = [0.0; 2];
         if forces.damping > 0.0 {
             let share = (dt * forces.damping).min(1.0);
-            damped = [-share * m * old[0], -share * m * old[1]];
-            v = [v[0] + damped[0] * per_m, v[1] + damped[1] * per_m];
+            damped = scaled(old, -share * m);
+            v = plus(v, scaled(damped, per_m));
         }
         let mut braked = [0.0; 2];
         let side_friction = sum.side_friction();
         if side_friction > 0.0 {
-            let speed = (v[0] * v[0] + v[1] * v[1]).sqrt();
+            let speed = norm(v);
             let share = if speed > 0.0 { (dt * side_friction / (m * speed)).min(1.0) } else { 0.0 };
-            braked = [-share * m * v[0], -share * m * v[1]];
-            v = [v[0] * (1.0 - share), v[1] * (1.0 - share)];
+            braked = scaled(v, -share * m);
+            v = scaled(v, 1.0 - share);
         }
         if open {
-            let field = field.map_or([0.0; 2], |f| [f[0] * dt, f[1] * dt]);
+            let field = field.map_or([0.0; 2], |f| scaled(f, dt));
             band.open[next_shared - 1] = OpenNode { mass: m, old, free: v, damped, braked, field };
             continue;
         }
@@ -222,7 +188,7 @@ fn balance_nodes<const SHARED: bool>(
             let holds = &mut band.holds[first_hold..next_hold];
             nodes::solve(holds, boundaries, m, old, &mut v, &mut band.tallies);
         }
-        let mean = [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])];
+        let mean = mean(old, v);
         if forces.damping > 0.0 {
             band.distributed.damping.add(damped, mean);
         }
@@ -230,9 +196,9 @@ fn balance_nodes<const SHARED: bool>(
             band.distributed.side_walls.add(braked, mean);
         }
         if let Some(f) = field {
-            band.distributed.field.add([f[0] * dt, f[1] * dt], mean);
+            band.distributed.field.add(scaled(f, dt), mean);
         }
-        work.motion[i] = [v[0], v[1], v[0] - old[0], v[1] - old[1]];
+        work.motion[i] = motion(old, v);
         work.strain_velocity[i] = v;
     }
     if let Some(before) = &mut before {
@@ -246,11 +212,11 @@ fn balance_nodes<const SHARED: bool>(
 /// from the band's first, `index` is its place among the open ones.
 pub fn close(before: Option<&mut Band>, band: &mut Band, node: usize, index: usize, v: [f64; 2]) {
     let open = band.open[index];
-    let mean = [0.5 * (open.old[0] + v[0]), 0.5 * (open.old[1] + v[1])];
+    let mean = mean(open.old, v);
     band.distributed.damping.add(open.damped, mean);
     band.distributed.side_walls.add(open.braked, mean);
     band.distributed.field.add(open.field, mean);
-    let motion = [v[0], v[1], v[0] - open.old[0], v[1] - open.old[1]];
+    let motion = motion(open.old, v);
     band.work.motion[node] = motion;
     if let Some(before) = before {
         let past = before.owned + node;
@@ -275,6 +241,6 @@ pub fn set_strain_velocity(before: Option<&mut Band>, band: &mut Band, node: usi
 fn sum_field(before: Option<&Band>, band: &mut Band) {
     let past = tail(before, |b| &b.field_force);
     for (own, first) in band.field_force.iter_mut().zip(past) {
-        *own = [own[0] + first[0], own[1] + first[1]];
+        *own = plus(*own, *first);
     }
 }

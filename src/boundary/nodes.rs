@@ -10,6 +10,7 @@
 
 use super::{Boundary, Friction};
 use crate::grid::ActiveGrid;
+use crate::space::{clockwise, dot, mean, minus, moment, plus, scaled};
 
 /// Most iterations for a node held by more than one boundary; perpendicular faces need two.
 const SWEEPS: usize = 24;
@@ -69,8 +70,7 @@ pub struct Tally {
 impl Tally {
     /// Adds another tally.
     pub fn add(&mut self, other: &Tally) {
-        self.impulse[0] += other.impulse[0];
-        self.impulse[1] += other.impulse[1];
+        self.impulse = plus(self.impulse, other.impulse);
         self.moment += other.moment;
         self.friction_work += other.friction_work;
         self.normal_work += other.normal_work;
@@ -86,13 +86,12 @@ pub fn find_holds(boundaries: &[Boundary], bodies: &[usize], grid: &ActiveGrid, 
         let buried = acting().any(|(_, b)| b.height().is_infinite() && b.depth(x) >= -tolerance);
         for (index, b) in acting() {
             if let Some(contact) = b.hold(x, grid.spacing, tolerance, buried) {
-                let foot = b.foot();
                 holds.push(Hold {
                     node: node as u32,
                     boundary: index as u32,
                     normal: contact.normal,
                     along: contact.along,
-                    arm: [x[0] - foot.x, x[1] - foot.y],
+                    arm: minus(x, b.foot().into()),
                     friction: b.friction.coefficient(),
                     bonded: b.friction == Friction::Bonded,
                     wall: b.velocity.into(),
@@ -112,8 +111,8 @@ impl Hold {
 
     /// The vector impulse of the step on the material, N s.
     pub fn vector_impulse(&self) -> [f64; 2] {
-        let ([nx, ny], [n, t]) = (self.normal, self.impulse);
-        [nx * n + ny * t, ny * n - nx * t]
+        let [n, t] = self.impulse;
+        plus(scaled(self.normal, n), scaled(clockwise(self.normal), t))
     }
 
     /// One Gauss-Seidel visit to the normal impulse alone.
@@ -126,14 +125,14 @@ impl Hold {
     /// One Gauss-Seidel visit: brings the accumulated impulses up to date with velocity `v` of a node of mass `m`.
     #[inline]
     fn relax(&mut self, m: f64, v: &mut [f64; 2]) {
-        let [nx, ny] = self.normal;
-        let rel = [v[0] - self.wall[0], v[1] - self.wall[1]];
-        let approach = rel[0] * nx + rel[1] * ny;
+        let (n, t) = (self.normal, clockwise(self.normal));
+        let rel = minus(*v, self.wall);
+        let approach = dot(rel, n);
         let stop = self.impulse[0] - m * approach;
         let normal = if self.bonded { stop } else { stop.max(0.0) };
         let change = (normal - self.impulse[0]) / m;
         self.impulse[0] = normal;
-        let sliding = rel[0] * ny - rel[1] * nx;
+        let sliding = dot(rel, t);
         let stick = self.impulse[1] - m * sliding;
         // Smooth boundaries and open contacts have no friction; 0 x infinity must not arise.
         let limit = match () {
@@ -149,18 +148,17 @@ impl Hold {
         };
         let shift = (tangential - self.impulse[1]) / m;
         self.impulse[1] = tangential;
-        v[0] += change * nx + shift * ny;
-        v[1] += change * ny - shift * nx;
+        *v = plus(*v, plus(scaled(n, change), scaled(t, shift)));
     }
 
     fn tally(&self, mean: [f64; 2]) -> Tally {
-        let ([nx, ny], [n, t]) = (self.normal, self.impulse);
+        let [n, t] = self.impulse;
         let impulse = self.vector_impulse();
         Tally {
             impulse,
-            moment: self.arm[0] * impulse[1] - self.arm[1] * impulse[0],
-            friction_work: t * (mean[0] * ny - mean[1] * nx),
-            normal_work: n * (mean[0] * nx + mean[1] * ny),
+            moment: moment(self.arm, impulse),
+            friction_work: t * dot(mean, clockwise(self.normal)),
+            normal_work: n * dot(mean, self.normal),
         }
     }
 }
@@ -185,7 +183,7 @@ pub fn solve(
         visit(holds, boundaries, m, v, false);
     }
     visit(holds, boundaries, m, v, true);
-    book(holds, [0.5 * (old[0] + v[0]), 0.5 * (old[1] + v[1])], tallies);
+    book(holds, mean(old, *v), tallies);
 }
 
 /// Forgets the impulses of a node's holds.
@@ -232,16 +230,11 @@ pub fn project(holds: &[Hold], v: &mut [f64; 2]) {
     let sweeps = if holds.len() > 1 { 4 } else { 1 };
     for _ in 0..sweeps {
         for hold in holds {
-            let [nx, ny] = hold.normal;
-            let approach = (v[0] - hold.wall[0]) * nx + (v[1] - hold.wall[1]) * ny;
+            let approach = dot(minus(*v, hold.wall), hold.normal);
             match hold.state {
                 HoldState::Apart => {}
                 HoldState::Sticking => *v = hold.wall,
-                HoldState::Slipping => {
-                    let stop = approach.min(0.0);
-                    v[0] -= stop * nx;
-                    v[1] -= stop * ny;
-                }
+                HoldState::Slipping => *v = minus(*v, scaled(hold.normal, approach.min(0.0))),
             }
         }
     }

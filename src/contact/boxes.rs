@@ -3,8 +3,9 @@
 //!
 //! Elsewhere: a bounding volume hierarchy (a tree of axis-aligned boxes), the broad phase of contact detection.
 
-use super::{Vector, minus};
+use super::Vector;
 use crate::lanes::{LANES, Lane};
+use crate::space::minus;
 
 /// Eight boxes; those that are missing are infinitely far away.
 #[derive(Debug, Clone, Copy)]

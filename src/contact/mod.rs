@@ -5,7 +5,7 @@
 //! friction along the surface between them, and gives it to both with opposite signs (Bardenhagen, Brackbill and Sulsky 2000;
 //! Ng et al., Appendix B).
 //!
-//! - [`pair`] is the law for two bodies: impulse, stick and slip, work; [`node`] solves it for any number of bodies at a node.
+//! - [`side`] is one body at a node; [`pair`] is the law for two: impulse, stick and slip, work; [`node`] solves it for any number.
 //! - [`normal`], [`regression`] and [`outline`] say how the surface lies, [`separation`] how far apart the bodies are.
 //!
 //! - [`rule`] is what a user chooses.
@@ -22,26 +22,10 @@ pub mod pair;
 pub mod regression;
 pub mod rule;
 pub mod separation;
+pub mod side;
 
 #[cfg(test)]
 mod tests;
 
 /// A vector in the plane.
 pub type Vector = [f64; 2];
-
-#[inline(always)]
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-#[inline(always)]
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-/// The unit vector along `a`; none where `a` is not longer than `least`.
-#[inline]
-pub fn direction(a: Vector, least: f64) -> Option<Vector> {
-    let length = dot(a, a).sqrt();
-    (length > least).then(|| [a[0] / length, a[1] / length])
-}

@@ -12,42 +12,15 @@
 //! Elsewhere: non-smooth contact dynamics, a complementarity problem at each node. There is no warm start: impulses
 //! begin at zero in each step.
 
+use super::Vector;
 use super::pair::{State, Touch};
-use super::{Vector, dot, minus};
+use super::side::Side;
+use crate::space::{dot, minus, plus, scaled};
 
 /// Most visits to each pair where impulses depend on each other.
 const SWEEPS: usize = 400;
 /// Velocities that change by less than this share of the largest are final.
 const SETTLED: f64 = 1e-14;
-
-/// One body at a node.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Side {
-    /// Mass, kg, above zero.
-    pub mass: f64,
-    /// Velocity before the step, m/s.
-    pub old: Vector,
-    /// Velocity after the momentum balance, m/s; contact replaces it.
-    pub velocity: Vector,
-    /// Whether a clamp prescribes the velocity: contact leaves it alone, and the impulse goes into the clamp.
-    pub fixed: bool,
-    /// Whether other boundaries act on the body.
-    pub held: bool,
-}
-
-impl Side {
-    /// Velocity per impulse, 1/kg.
-    #[inline(always)]
-    pub(super) fn mobility(&self) -> f64 {
-        if self.fixed { 0.0 } else { 1.0 / self.mass }
-    }
-
-    /// Mean of the velocities before and after the step, m/s.
-    #[inline(always)]
-    pub fn mean(&self) -> Vector {
-        [0.5 * (self.old[0] + self.velocity[0]), 0.5 * (self.old[1] + self.velocity[1])]
-    }
-}
 
 /// Solves the contact of all bodies at a node: replaces their velocities, and fills in impulses and states of the touches.
 ///
@@ -146,13 +119,11 @@ pub fn project(sides: &mut [Side], touches: &[Touch]) {
                 State::Sticking => relative,
                 _ => {
                     let approach = (dot(relative, touch.normal) - touch.slack).max(0.0);
-                    [approach * touch.normal[0], approach * touch.normal[1]]
+                    scaled(touch.normal, approach)
                 }
             };
-            for (d, v) in stop.into_iter().enumerate() {
-                sides[a].velocity[d] -= to_a / mobility * v;
-                sides[b].velocity[d] += to_b / mobility * v;
-            }
+            sides[a].velocity = minus(sides[a].velocity, scaled(stop, to_a / mobility));
+            sides[b].velocity = plus(sides[b].velocity, scaled(stop, to_b / mobility));
         }
     }
 }

@@ -6,7 +6,8 @@
 //!
 //! Elsewhere: contact normals from gradients of mass, volume or a colour function.
 
-use super::{Vector, direction, minus};
+use super::Vector;
+use crate::space::{direction, minus, plus, scaled};
 
 /// What the points of one body add up to at a node.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,15 +28,13 @@ impl Sample {
     pub fn add(&mut self, m: f64, v: f64, x: Vector, s: f64, gradient: Vector) {
         self.mass += m * s;
         self.volume += v * s;
-        for d in 0..2 {
-            self.gradient[d] += v * gradient[d];
-            self.moment[d] += m * s * x[d];
-        }
+        self.gradient = plus(self.gradient, scaled(gradient, v));
+        self.moment = plus(self.moment, scaled(x, m * s));
     }
 
     /// Mean position (or displacement) of the points as the node sees them, m.
     pub fn mean(&self) -> Vector {
-        [self.moment[0] / self.mass, self.moment[1] / self.mass]
+        self.moment.map(|x| x / self.mass)
     }
 }
 
@@ -53,7 +52,7 @@ pub enum GradientRule {
 pub fn from_gradients(rule: GradientRule, a: &Sample, b: &Sample, least: f64) -> Option<Vector> {
     let out = match rule {
         GradientRule::Larger if a.volume >= b.volume => a.gradient,
-        GradientRule::Larger => [-b.gradient[0], -b.gradient[1]],
+        GradientRule::Larger => b.gradient.map(|g| -g),
         GradientRule::Average => minus(a.gradient, b.gradient),
     };
     direction(out, least)

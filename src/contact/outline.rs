@@ -7,8 +7,9 @@
 //! Elsewhere: front tracking by a chain of markers; the distance from it is the signed distance (level set) of the
 //! body.
 
+use super::Vector;
 use super::boxes::Segments;
-use super::{Vector, direction, dot, minus};
+use crate::space::{clockwise, direction, dot, minus};
 use std::collections::BTreeMap;
 
 /// Rings of point numbers around a body, counter-clockwise, holes clockwise. A point of a thin part may occur twice.
@@ -109,7 +110,7 @@ pub fn nearest(ring: &[Vector], radius: f64, x: Vector) -> Option<Nearest> {
     let inside = crossings != 0;
     let distance = if inside { -square.sqrt() } else { square.sqrt() };
     // Close to the ring the direction to it is noise; the face itself has a normal, to the right of its direction.
-    let face = direction([along[1], -along[0]], 0.0);
+    let face = direction(clockwise(along), 0.0);
     let away = direction(minus(x, foot), 1e-9 * radius.max(f64::MIN_POSITIVE));
     let normal = match away {
         Some(n) if inside => [-n[0], -n[1]],
@@ -151,7 +152,7 @@ impl Surface {
         let (foot, _, share) = foot_on(self.ring[k], self.ring[(k + 1) % n], x);
         let face = |k: usize| {
             let along = minus(self.ring[(k + 1) % n], self.ring[k % n]);
-            direction([along[1], -along[0]], 0.0).unwrap_or_default()
+            direction(clockwise(along), 0.0).unwrap_or_default()
         };
         let own = face(k);
         let out = match () {

@@ -2,8 +2,9 @@
 //!
 //! Elsewhere: complementarity conditions of unilateral contact; stick and slip as a return to the friction cone.
 
-use super::node::Side;
-use super::{Vector, minus};
+use super::Vector;
+use super::side::Side;
+use crate::space::{clockwise, dot, minus, plus, scaled};
 
 /// How two bodies move at a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -47,8 +48,7 @@ pub struct Exchange {
 impl Exchange {
     /// Adds another exchange.
     pub fn add(&mut self, other: &Exchange) {
-        self.impulse[0] += other.impulse[0];
-        self.impulse[1] += other.impulse[1];
+        self.impulse = plus(self.impulse, other.impulse);
         self.friction_work += other.friction_work;
         self.normal_work += other.normal_work;
     }
@@ -72,19 +72,19 @@ impl Touch {
 
     /// Impulse on the second body, N s.
     pub fn vector_impulse(&self) -> Vector {
-        let ([nx, ny], [n, t]) = (self.normal, self.impulse);
-        [nx * n + ny * t, ny * n - nx * t]
+        let [n, t] = self.impulse;
+        plus(scaled(self.normal, n), scaled(clockwise(self.normal), t))
     }
 
     /// Impulse and works of the last solution.
     pub fn exchange(&self, sides: &[Side]) -> Exchange {
         let [a, b] = self.sides;
-        let ([nx, ny], [n, t]) = (self.normal, self.impulse);
+        let [n, t] = self.impulse;
         let relative = minus(sides[b].mean(), sides[a].mean());
         Exchange {
             impulse: self.vector_impulse(),
-            friction_work: t * (relative[0] * ny - relative[1] * nx),
-            normal_work: n * (relative[0] * nx + relative[1] * ny),
+            friction_work: t * dot(relative, clockwise(self.normal)),
+            normal_work: n * dot(relative, self.normal),
         }
     }
 
@@ -98,16 +98,16 @@ impl Touch {
     #[inline]
     pub(super) fn relax(&mut self, sides: &mut [Side], friction: f64) {
         let [a, b] = self.sides;
-        let [nx, ny] = self.normal;
+        let (n, t) = (self.normal, clockwise(self.normal));
         let (to_a, to_b) = (sides[a].mobility(), sides[b].mobility());
         let mobility = to_a + to_b;
         if mobility <= 0.0 {
             return;
         }
         let relative = minus(sides[a].velocity, sides[b].velocity);
-        let approach = relative[0] * nx + relative[1] * ny - self.slack;
+        let approach = dot(relative, n) - self.slack;
         let normal = (self.impulse[0] + approach / mobility).max(0.0);
-        let sliding = relative[0] * ny - relative[1] * nx;
+        let sliding = dot(relative, t);
         let stick = self.impulse[1] + sliding / mobility;
         // Without pressure there is no friction; 0 x infinity must not arise.
         let limit = if normal > 0.0 { friction * normal } else { 0.0 };
@@ -119,10 +119,8 @@ impl Touch {
         };
         let (dn, dt) = (normal - self.impulse[0], tangential - self.impulse[1]);
         self.impulse = [normal, tangential];
-        let change = [dn * nx + dt * ny, dn * ny - dt * nx];
-        for (d, p) in change.into_iter().enumerate() {
-            sides[a].velocity[d] -= to_a * p;
-            sides[b].velocity[d] += to_b * p;
-        }
+        let change = plus(scaled(n, dn), scaled(t, dt));
+        sides[a].velocity = minus(sides[a].velocity, scaled(change, to_a));
+        sides[b].velocity = plus(sides[b].velocity, scaled(change, to_b));
     }
 }

@@ -4,7 +4,8 @@
 //! to the labels by least squares; its gradient is the normal. A small penalty on b keeps clouds that can be separated, for
 //! which the fit would grow without bound, at a finite slope. Gauss-Newton steps start from the linear fit.
 
-use super::{Vector, direction};
+use super::Vector;
+use crate::space::direction;
 
 /// Most Gauss-Newton steps.
 const STEPS: usize = 15;

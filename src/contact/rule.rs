@@ -3,9 +3,10 @@
 //! Elsewhere: a contact pair with its interface law. The structure is the master, the other body the slave.
 
 use super::Vector;
-use super::node::Side;
 use super::pair::Exchange;
 use super::separation::TOUCHING;
+use super::side::Side;
+use crate::space::moment;
 
 /// How the normal between two bodies is found at a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +79,7 @@ impl ContactTally {
     /// Adds the exchange at a node at `x` (m).
     pub fn add(&mut self, exchange: &Exchange, x: Vector) {
         self.exchange.add(exchange);
-        self.moment += x[0] * exchange.impulse[1] - x[1] * exchange.impulse[0];
+        self.moment += moment(x, exchange.impulse);
         self.nodes += 1;
     }
 

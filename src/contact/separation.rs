@@ -10,8 +10,9 @@
 //!
 //! Elsewhere: gap functions, the narrow phase of contact detection.
 
+use super::Vector;
 use super::normal::Sample;
-use super::{Vector, dot, minus};
+use crate::space::{dot, minus};
 
 /// Share of a cell by which mean positions at a node are apart when two bodies with two points per cell and direction touch.
 pub const TOUCHING: f64 = 0.8;

@@ -5,9 +5,12 @@
 //!
 //! Elsewhere: energy and momentum budgets.
 
+mod drag;
+
 use crate::boundary::nodes::Tally;
 use crate::contact::rule::ContactTally;
-use crate::momentum::Drag;
+
+pub use drag::{Distributed, Drag};
 
 /// Sums since the ledger was opened. Impulses act on the material; works are done on the material.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -8,6 +8,8 @@
 
 use serde::{Deserialize, Serialize};
 
+pub mod stencil;
+
 /// Nodes of the stencil in each direction.
 pub const STENCIL: usize = 3;
 

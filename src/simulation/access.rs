@@ -9,6 +9,7 @@ use crate::boundary::nodes::{Hold, Tally};
 use crate::constitutive::Law;
 use crate::contact::rule::{ContactRule, ContactTally};
 use crate::ledger::{EnergyBalance, Ledger, Stock};
+use crate::space::{dot, plus, scaled};
 use crate::timestep::TimeStep;
 
 impl Simulation {
@@ -231,10 +232,9 @@ impl Simulation {
             let heavy = if body.weightless { 0.0 } else { m };
             s.mass += m;
             s.heavy += heavy;
-            s.momentum[0] += m * p.v[0];
-            s.momentum[1] += m * p.v[1];
-            s.kinetic += 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
-            s.gravitational += heavy * potential(&self.forces.gravity, &p.x);
+            s.momentum = plus(s.momentum, scaled(p.v, m));
+            s.kinetic += 0.5 * m * dot(p.v, p.v);
+            s.gravitational += heavy * potential(self.forces.gravity, p.x);
             s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         }
         s
@@ -242,7 +242,7 @@ impl Simulation {
 
     /// Energy by mechanism since the ledger was opened, with gravitational energy counted from the level of `datum` (m).
     pub fn energy_balance(&self, now: &Stock, datum: [f64; 2]) -> EnergyBalance {
-        let level = potential(&self.forces.gravity, &datum);
+        let level = potential(self.forces.gravity, datum);
         EnergyBalance::new(&self.ledger, &self.opening, now, [self.opening.heavy * level, now.heavy * level])
     }
 }

@@ -12,6 +12,7 @@ use crate::grid::Lattice;
 use crate::layout::{Departed, SortRules};
 use crate::ledger::{Ledger, Stock};
 use crate::momentum::BodyForces;
+use crate::space::{dot, plus, scaled};
 use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
 use coupling::Coupling;
 use failure::CRUSHED;
@@ -309,12 +310,10 @@ impl Simulation {
             *behind += if b.face_coordinates(p.x).0 < 0.0 { m } else { 0.0 };
         }
         ledger.departed_energy +=
-            0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(&self.forces.gravity, &p.x);
+            0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(self.forces.gravity, p.x);
         // The elastic energy leaves the stock without being dissipated.
         ledger.internal_work -= elastic;
-        for d in 0..2 {
-            ledger.departed_momentum[d] += m * p.v[d];
-        }
+        ledger.departed_momentum = plus(ledger.departed_momentum, scaled(p.v, m));
     }
 
     fn measure_speeds(&mut self) {
@@ -326,6 +325,6 @@ impl Simulation {
 }
 
 /// Gravitational energy per mass at `x`, zero at the origin, J/kg.
-fn potential(gravity: &[f64; 2], x: &[f64; 2]) -> f64 {
-    -(gravity[0] * x[0] + gravity[1] * x[1])
+fn potential(gravity: [f64; 2], x: [f64; 2]) -> f64 {
+    -dot(gravity, x)
 }

@@ -1,9 +1,11 @@
 //! The law at a node against closed forms and its own conditions.
 
-use crate::contact::node::{Side, project, solve, solve_held};
+use crate::contact::Vector;
+use crate::contact::node::{project, solve, solve_held};
 use crate::contact::pair::{Exchange, State, Touch};
-use crate::contact::{Vector, dot, minus};
+use crate::contact::side::Side;
 use crate::scaffold::Lcg;
+use crate::space::{dot, minus};
 
 fn side(mass: f64, old: Vector, velocity: Vector) -> Side {
     Side { mass, old, velocity, fixed: false, held: false }

@@ -1,8 +1,9 @@
 //! Outlines of lattices, and distances from them.
 
+use crate::contact::Vector;
 use crate::contact::boxes::Segments;
 use crate::contact::outline::{Nearest, Outline, Surface, foot_on, nearest, penetration};
-use crate::contact::{Vector, dot, minus};
+use crate::space::{dot, minus};
 
 const S: f64 = 0.05;
 

@@ -1,10 +1,11 @@
 //! Normals, gaps and areas between straight surfaces at any angle and place, and outlines.
 
+use crate::contact::Vector;
 use crate::contact::normal::{GradientRule, Sample, from_gradients, from_positions};
 use crate::contact::regression;
 use crate::contact::separation::{self, Grain, TOUCHING, area};
-use crate::contact::{Vector, dot};
 use crate::shape::{AveragedHat, STENCIL, Shape1d};
+use crate::space::dot;
 
 /// Half width of a point's domain in cells, two points per cell and direction.
 const HALF: f64 = 0.25;

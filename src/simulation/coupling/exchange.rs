@@ -4,12 +4,14 @@ use super::{ContactPoint, Coupling, SharedSide, Solved, VelocityField};
 use crate::band::Band;
 use crate::boundary::{Boundary, nodes};
 use crate::contact::Vector;
-use crate::contact::node::{self, Side};
+use crate::contact::node;
 use crate::contact::pair::{State, Touch};
 use crate::contact::rule::{MAX_SIDES, Sides};
+use crate::contact::side::Side;
 use crate::momentum;
 use crate::shape::ShapeFunction;
 use crate::simulation::implicit::{ImplicitBody, PASSES, SETTLED};
+use crate::space::{plus, scaled};
 
 /// A band and the one before it.
 fn with_before(bands: &mut [Band], k: usize) -> (Option<&mut Band>, &mut Band) {
@@ -161,7 +163,7 @@ impl Coupling {
                 let mut impulse = [0.0; 2];
                 for touch in touches.iter().filter(|t| t.sides.contains(&k)) {
                     let (sign, p) = (if touch.sides[1] == k { 1.0 } else { -1.0 }, touch.vector_impulse());
-                    impulse = [impulse[0] + sign * p[0], impulse[1] + sign * p[1]];
+                    impulse = plus(impulse, scaled(p, sign));
                 }
                 body.take(body.slot(own[k].band, own[k].index), impulse);
             }
@@ -176,7 +178,7 @@ impl Coupling {
                 for touch in touches.iter() {
                     let p = touch.vector_impulse();
                     let sign = f64::from(u8::from(touch.sides[1] == k)) - f64::from(u8::from(touch.sides[0] == k));
-                    v = [v[0] + sign * p[0] / side.mass, v[1] + sign * p[1] / side.mass];
+                    v = plus(v, scaled(p, sign).map(|p| p / side.mass));
                 }
                 nodes::visit(&mut self.holds[range(k)], boundaries, side.mass, &mut v, true);
                 side.velocity = v;

@@ -6,8 +6,9 @@ use super::{Pending, SharedNode, SharedSide, VelocityField};
 use crate::contact::normal::{GradientRule, Sample, from_gradients, from_positions};
 use crate::contact::outline::{Nearest, Outline, Surface};
 use crate::contact::rule::{ContactRule, ContactTally, GapRule, NormalRule};
-use crate::contact::{Vector, direction, regression, separation};
+use crate::contact::{Vector, regression, separation};
 use crate::shape::ShapeFunction;
+use crate::space::{direction, dot, minus, norm, plus, scaled};
 
 /// Points of either body that a node has room for in a regression.
 const CLOUD: usize = 64;
@@ -231,7 +232,7 @@ impl Interface {
                 marks.nodes(&field.grid, point, |k, seen| {
                     let view = &mut views[k];
                     let from = starts.get(id as usize).copied().unwrap_or(nodes[view.node].x);
-                    let x = [point.x[0] - from[0], point.x[1] - from[1]];
+                    let x = minus(point.x, from);
                     view.samples[side].add(body.point_mass, volume, x, seen.weight, seen.gradient);
                     if clouds {
                         view.clouds[side].push(point.x);
@@ -258,9 +259,7 @@ impl Interface {
         let mut face_of = |point: &Near, face: &Nearest| {
             marks.nodes(&field.grid, point, |k, seen| {
                 let view = &mut views[k];
-                for (sum, n) in view.faces.iter_mut().zip(face.normal) {
-                    *sum += seen.weight * n;
-                }
+                view.faces = plus(view.faces, scaled(face.normal, seen.weight));
                 view.extents[other] = view.extents[other].max(radius - face.distance);
                 view.extents[structure] = 0.0;
             });
@@ -306,7 +305,7 @@ impl Interface {
                     let view = &mut views[k];
                     if let Some(n) = view.normal {
                         let x = nodes[view.node].x;
-                        let reach = sign * ((point.x[0] - x[0]) * n[0] + (point.x[1] - x[1]) * n[1]) + radius;
+                        let reach = sign * dot(minus(point.x, x), n) + radius;
                         view.extents[side] = view.extents[side].max(reach);
                     }
                 });
@@ -318,10 +317,7 @@ impl Interface {
 /// Angle of the rows of a lattice of points: from the first point to a neighbour of it, rad.
 fn lattice_angle(points: &[(u32, Vector)], spacing: f64) -> f64 {
     let Some(&(_, first)) = points.first() else { return 0.0 };
-    let away = |x: Vector| {
-        let r = [x[0] - first[0], x[1] - first[1]];
-        ((r[0] * r[0] + r[1] * r[1]).sqrt() - spacing).abs()
-    };
+    let away = |x: Vector| (norm(minus(x, first)) - spacing).abs();
     let neighbour = points.iter().skip(1).find(|p| away(p.1) < 1e-6 * spacing);
     neighbour.map_or(0.0, |&(_, x)| libm::atan2(x[1] - first[1], x[0] - first[0]))
 }

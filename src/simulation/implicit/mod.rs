@@ -40,6 +40,7 @@ mod motion;
 use super::field::VelocityField;
 use crate::boundary::Boundary;
 use crate::momentum::BodyForces;
+use crate::space::{minus, scaled};
 use banded::{Banded, Blocks};
 
 /// Most sweeps over the touched nodes in a step, and the change of velocity, as a share of the largest, at which they
@@ -277,7 +278,7 @@ impl ImplicitBody {
             open.free = v;
         } else {
             open.mass = 1.0 / mobility;
-            open.free = [v[0] - mobility * impulse[0], v[1] - mobility * impulse[1]];
+            open.free = minus(v, scaled(impulse, mobility));
         }
     }
 

@@ -8,9 +8,11 @@ use crate::body::Particle;
 use crate::boundary::Boundary;
 use crate::boundary::nodes::Tally;
 use crate::constitutive::{AnyLaw, Increment, Law};
-use crate::momentum::{BodyForces, Distributed};
+use crate::ledger::Distributed;
+use crate::momentum::BodyForces;
 use crate::simulation::field::VelocityField;
 use crate::simulation::sweep::together;
+use crate::space::{dot, moment, plus};
 
 impl ImplicitBody {
     /// Finds how the body would move without contact, and opens the nodes that other fields reach.
@@ -96,8 +98,7 @@ impl ImplicitBody {
             });
             let number = band.first_node + at;
             if let Some(hold) = band.holds.iter().find(|h| h.node as usize == number) {
-                let moment = hold.arm[0] * impulse[1] - hold.arm[1] * impulse[0];
-                let tally = Tally { impulse, moment, ..Tally::default() };
+                let tally = Tally { impulse, moment: moment(hold.arm, impulse), ..Tally::default() };
                 band.tallies[hold.boundary as usize].add(&tally);
             }
         }
@@ -170,13 +171,8 @@ impl ImplicitBody {
                 law.update(&mut state, &increment);
                 let volume_ratio = law.volume_ratio(&state, base.volume_ratio, &increment);
                 smallest = smallest.min(volume_ratio);
-                let point = Particle {
-                    id: base.id,
-                    x: [base.x[0] + moved[0], base.x[1] + moved[1]],
-                    v: [base.v[0] + faster[0], base.v[1] + faster[1]],
-                    state,
-                    volume_ratio,
-                };
+                let point =
+                    Particle { id: base.id, x: plus(base.x, moved), v: plus(base.v, faster), state, volume_ratio };
                 band.points[0].set(i, &point);
             }
             band.sums.min_volume_ratio = smallest;
@@ -191,6 +187,6 @@ impl ImplicitBody {
     pub(super) fn point_kinetic(&self, field: &VelocityField) -> f64 {
         let m = field.bodies[0].point_mass;
         let points = field.bands.iter().flat_map(|b| b.points[0].iter());
-        points.map(|p| 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1])).sum()
+        points.map(|p| 0.5 * m * dot(p.v, p.v)).sum()
     }
 }
