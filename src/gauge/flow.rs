@@ -1,6 +1,7 @@
 //! Front, depth, velocity, run-up and overtopping.
 
-use crate::body::Particle;
+use super::beside::beside;
+use crate::body::{Block, Particle};
 use crate::boundary::{Boundary, Friction};
 use crate::simulation::Simulation;
 
@@ -26,40 +27,115 @@ pub fn flowing(simulation: &Simulation, barrier: Option<usize>) -> impl Iterator
     simulation.particles().filter(move |(body, _)| Some(*body) != barrier && !simulation.bodies()[*body].weightless)
 }
 
+/// The blocks of points of everything that flows (see [`flowing`]), in the same order: index of the body, block, number of real
+/// points.
+pub(super) fn flowing_blocks(
+    simulation: &Simulation,
+    barrier: Option<usize>,
+) -> impl Iterator<Item = (usize, &Block, usize)> {
+    simulation.blocks().filter(move |(body, ..)| Some(*body) != barrier && !simulation.bodies()[*body].weightless)
+}
+
+/// Mass, momentum and kinetic energy of some bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Motion {
+    /// kg.
+    pub mass: f64,
+    /// N s.
+    pub momentum: [f64; 2],
+    /// J.
+    pub kinetic: f64,
+}
+
+/// How the bodies move that are `chosen` by index: what [`Simulation::stock_of`] says of it, without the energies that are stored.
+pub fn motion(simulation: &Simulation, chosen: impl Fn(usize) -> bool) -> Motion {
+    let mut sum = Motion::default();
+    for (body, block, n) in simulation.blocks().filter(|(body, ..)| chosen(*body)) {
+        let m = simulation.bodies()[body].point_mass;
+        for (vx, vy) in block.v[0].iter().zip(&block.v[1]).take(n) {
+            sum.mass += m;
+            sum.momentum[0] += m * vx;
+            sum.momentum[1] += m * vy;
+            sum.kinetic += 0.5 * m * (vx * vx + vy * vy);
+        }
+    }
+    sum
+}
+
+/// A point of the flow's head: x (m), velocity along x (m/s), mass (kg), volume (m3).
+type HeadPoint = [f64; 4];
+
+/// Memory that [`front`] works in.
+#[derive(Debug, Clone, Default)]
+pub struct FrontScratch {
+    places: Vec<f64>,
+    head: Vec<HeadPoint>,
+}
+
 /// Finds the front of the flow (see [`flowing`]). `scratch` is memory to reuse.
-pub fn front(simulation: &Simulation, barrier: Option<usize>, scratch: &mut Vec<(f64, f64, f64, f64)>) -> Front {
-    scratch.clear();
-    scratch.extend(flowing(simulation, barrier).map(|(b, p)| {
-        let body = &simulation.bodies()[b];
-        (p.x[0], p.v[0], body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO))
-    }));
-    if scratch.is_empty() {
-        return Front::default();
+///
+/// Sums run from the foremost point backwards. Only the head is put in order: where the front is follows from how many points
+/// are ahead of it. That needs points of one mass and no two at the same x; else all of them are sorted.
+pub fn front(simulation: &Simulation, barrier: Option<usize>, scratch: &mut FrontScratch) -> Front {
+    let FrontScratch { places, head } = scratch;
+    places.clear();
+    let (mut one_mass, mut of_point) = (true, None);
+    for (body, block, n) in flowing_blocks(simulation, barrier) {
+        let mass = simulation.bodies()[body].point_mass;
+        one_mass &= mass == *of_point.get_or_insert(mass);
+        places.extend_from_slice(&block.x[0][..n]);
     }
-    scratch.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
-    let mass: f64 = scratch.iter().map(|p| p.2).sum();
-    let mut passed = 0.0;
-    let x = scratch
-        .iter()
-        .find(|p| {
-            passed += p.2;
-            passed >= FRONT_SHARE * mass
-        })
-        .map_or(0.0, |p| p.0);
-    let (mut momentum, mut head) = (0.0, 0.0);
-    for p in scratch.iter().take_while(|p| p.0 >= x - FRONT_LENGTH) {
-        momentum += p.2 * p.1;
-        head += p.2;
-    }
+    let Some(of_point) = of_point else { return Front::default() };
     // Depth from the volume in strips of two cells.
     let strip = 2.0 * simulation.spacing();
     let strips = (0.1 / strip).round().max(1.0) as usize;
+    let depth_reach = strips as f64 * strip;
+
+    let in_order = |least: f64, head: &mut Vec<HeadPoint>| {
+        head.clear();
+        for (body, block, n) in flowing_blocks(simulation, barrier) {
+            let body = &simulation.bodies()[body];
+            for l in (0..n).filter(|&l| block.x[0][l] >= least) {
+                let volume = body.point_volume * block.volume_ratio[l].min(MAX_VOLUME_RATIO);
+                head.push([block.x[0][l], block.v[0][l], body.point_mass, volume]);
+            }
+        }
+        head.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
+    };
+    let total = one_mass.then(|| std::iter::repeat_n(of_point, places.len()).sum::<f64>());
+    let mut alone = false;
+    if let Some(total) = total {
+        let mut passed = 0.0;
+        let ahead = std::iter::repeat_n(of_point, places.len()).take_while(|m| {
+            passed += m;
+            passed < FRONT_SHARE * total
+        });
+        let ahead = ahead.count().min(places.len() - 1);
+        let x = *places.select_nth_unstable_by(ahead, |a, b| b.total_cmp(a)).1;
+        in_order((x - FRONT_LENGTH).min(x - depth_reach), head);
+        alone = head.windows(2).all(|pair| pair[0][0] != pair[1][0]);
+    }
+    if !alone {
+        in_order(f64::NEG_INFINITY, head);
+    }
+    let mass = total.unwrap_or_else(|| head.iter().map(|p| p[2]).sum());
+    let mut passed = 0.0;
+    let front = head.iter().find(|p| {
+        passed += p[2];
+        passed >= FRONT_SHARE * mass
+    });
+    let x = front.map_or(0.0, |p| p[0]);
+    let (mut momentum, mut moving) = (0.0, 0.0);
+    for [_, v, m, _] in head.iter().take_while(|p| p[0] >= x - FRONT_LENGTH) {
+        momentum += m * v;
+        moving += m;
+    }
     let mut volumes = vec![0.0; strips];
-    for p in scratch.iter().skip_while(|p| p.0 > x).take_while(|p| p.0 > x - strips as f64 * strip) {
-        volumes[(((x - p.0) / strip) as usize).min(strips - 1)] += p.3;
+    for p in head.iter().skip_while(|p| p[0] > x).take_while(|p| p[0] > x - depth_reach) {
+        volumes[(((x - p[0]) / strip) as usize).min(strips - 1)] += p[3];
     }
     let depth = volumes.iter().fold(0.0, |a: f64, v| a.max(v / (strip * simulation.thickness())));
-    Front { x, velocity: momentum / head, depth }
+    Front { x, velocity: momentum / moving, depth }
 }
 
 /// Points that have come apart count with at most this volume ratio in depths.
@@ -69,13 +145,13 @@ const MAX_VOLUME_RATIO: f64 = 1.5;
 pub fn stations(simulation: &Simulation, barrier: Option<usize>, at: &[f64]) -> Vec<(f64, f64)> {
     let h = simulation.spacing();
     let mut sums = vec![(0.0, 0.0, 0.0); at.len()];
-    for (b, p) in flowing(simulation, barrier) {
+    for (body, block, n) in flowing_blocks(simulation, barrier) {
+        let body = &simulation.bodies()[body];
         for (sum, &x) in sums.iter_mut().zip(at) {
-            if (p.x[0] - x).abs() <= h {
-                let body = &simulation.bodies()[b];
-                sum.0 += body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO);
+            for l in (0..n).filter(|&l| (block.x[0][l] - x).abs() <= h) {
+                sum.0 += body.point_volume * block.volume_ratio[l].min(MAX_VOLUME_RATIO);
                 sum.1 += body.point_mass;
-                sum.2 += body.point_mass * p.v[0];
+                sum.2 += body.point_mass * block.v[0][l];
             }
         }
     }
@@ -98,11 +174,11 @@ pub fn wall_state(simulation: &Simulation, boundary: usize) -> WallState {
     let h = simulation.spacing();
     let gone = simulation.ledger().departed_behind[boundary];
     let mut state = WallState { overtopped: gone, ..WallState::default() };
-    for (body, p) in simulation.particles() {
-        let (d, s) = b.face_coordinates(p.x);
+    for near in beside(b, 1.5 * h, simulation.blocks()) {
+        let (d, s) = b.face_coordinates(near.x());
         if d < -h {
-            state.overtopped += simulation.bodies()[body].point_mass;
-        } else if d <= 1.5 * h {
+            state.overtopped += simulation.bodies()[near.body].point_mass;
+        } else {
             state.run_up = state.run_up.max(s);
         }
     }
@@ -115,8 +191,9 @@ pub fn penetration(simulation: &Simulation) -> (f64, usize) {
     let mut deepest = (0.0, 0);
     let solid = |b: &Boundary| !b.is_gone() && b.friction != Friction::Bonded;
     for (index, b) in simulation.boundaries().iter().enumerate().filter(|(_, b)| solid(b)) {
-        for (_, p) in simulation.particles().filter(|(body, _)| b.acts_on(&[*body])) {
-            let depth = b.depth(p.x);
+        // What lies in front of its face is in no boundary.
+        for near in beside(b, 0.0, simulation.blocks().filter(|(body, ..)| b.acts_on(&[*body]))) {
+            let depth = b.depth(near.x());
             if depth > deepest.0 {
                 deepest = (depth, index);
             }
@@ -148,13 +225,16 @@ pub fn window_speed(
     scratch: &mut Vec<f64>,
 ) -> (f64, f64) {
     scratch.clear();
-    scratch.extend(flowing(simulation, barrier).filter(|(_, p)| window.contains(p.x)).map(|(_, p)| p.speed()));
+    for (_, block, n) in flowing_blocks(simulation, barrier) {
+        let inside = (0..n).filter(|&l| window.contains([block.x[0][l], block.x[1][l]]));
+        scratch.extend(inside.map(|l| block.get(l, 0).speed()));
+    }
     if scratch.is_empty() {
         return (0.0, 0.0);
     }
     let mean = scratch.iter().sum::<f64>() / scratch.len() as f64;
-    scratch.sort_unstable_by(f64::total_cmp);
-    (mean, scratch[((scratch.len() - 1) as f64 * 0.95).round() as usize])
+    let high = ((scratch.len() - 1) as f64 * 0.95).round() as usize;
+    (mean, *scratch.select_nth_unstable_by(high, f64::total_cmp).1)
 }
 
 /// One grid cell of a velocity field.

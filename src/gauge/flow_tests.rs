@@ -44,7 +44,7 @@ fn wall(x: f64) -> Boundary {
 #[test]
 fn no_material_has_no_front() {
     let sim = simulation(0.02, [vec![], vec![]], vec![]);
-    assert_eq!(front(&sim, None, &mut Vec::new()), Front::default());
+    assert_eq!(front(&sim, None, &mut FrontScratch::default()), Front::default());
     assert_eq!(stations(&sim, None, &[0.0]), [(0.0, 0.0)]);
     assert!(velocity_field(&sim, None).is_empty());
 }
@@ -61,7 +61,7 @@ fn barriers_do_not_flow() {
         let sim = Simulation::new(scene);
         let barrier = (!weightless).then_some(0);
         assert!(flowing(&sim, barrier).all(|(body, _)| body == 1) && flowing(&sim, barrier).count() == 2);
-        let front = front(&sim, barrier, &mut Vec::new());
+        let front = front(&sim, barrier, &mut FrontScratch::default());
         assert!(front.x == 1.05 && front.velocity == 3.0, "{front:?}");
         let station = stations(&sim, barrier, &[1.0])[0];
         assert!(close(station.0, 2.0 * BODIES[1].1 / (0.2 * THICKNESS)) && close(station.1, 3.0), "{station:?}");
@@ -85,7 +85,7 @@ fn front_is_where_one_percent_of_the_mass_has_passed() {
     heavy.extend((0..146).map(|k| point(1.0 - 1e-3 * f64::from(k), 0.0, [-100.0, 0.0], 1.0)));
     let sim = simulation(0.02, [light, heavy], vec![]);
     assert!(close(sim.mass(), 300.0));
-    let mut scratch = vec![(5.0, 5.0, 5.0, 5.0)];
+    let mut scratch = FrontScratch { places: vec![5.0], head: vec![[5.0; 4]] };
     let front = front(&sim, None, &mut scratch);
     assert_eq!(front.x, 1.5);
     assert!(close(front.velocity, (9.0 + 8.0 + 2.0 * 7.0 + 2.0 * 1.0) / 6.0), "{front:?}");
@@ -100,7 +100,7 @@ fn depth_of_the_front_is_that_of_the_fullest_strip() {
     let deepest = |behind: &[(f64, &[f64])]| {
         let points = behind.iter().flat_map(|&(back, ratios)| strip(back, ratios)).collect();
         let sim = simulation(0.02, [points, vec![]], vec![]);
-        let front = front(&sim, None, &mut Vec::new());
+        let front = front(&sim, None, &mut FrontScratch::default());
         assert_eq!(front.x, 1.5);
         front.depth * 0.04 * THICKNESS / BODIES[0].1
     };
@@ -111,17 +111,17 @@ fn depth_of_the_front_is_that_of_the_fullest_strip() {
     // The far end of the last strip is open.
     let points = [strip(0.0, &[1.0]), strip(0.125, &[1.0])].concat();
     let sim = simulation(0.0625, [points, vec![]], vec![]);
-    assert!(close(front(&sim, None, &mut Vec::new()).depth * 0.125 * THICKNESS, BODIES[0].1));
+    assert!(close(front(&sim, None, &mut FrontScratch::default()).depth * 0.125 * THICKNESS, BODIES[0].1));
     // What is ahead of the front has no depth.
     let mut points = strip(0.0, &[1.0; 200]);
     points.extend(strip(-1.0, &[1.0, 1.0]));
     let sim = simulation(0.02, [points, vec![]], vec![]);
-    let depth = front(&sim, None, &mut Vec::new()).depth;
+    let depth = front(&sim, None, &mut FrontScratch::default()).depth;
     assert!(close(depth * 0.04 * THICKNESS, 200.0 * BODIES[0].1));
     // On a coarse grid one strip is left, wider than 0.1 m.
     let points = [strip(0.0, &[1.0]), strip(0.3, &[1.0])].concat();
     let sim = simulation(0.2, [points, vec![]], vec![]);
-    assert!(close(front(&sim, None, &mut Vec::new()).depth * 0.4 * THICKNESS, 2.0 * BODIES[0].1));
+    assert!(close(front(&sim, None, &mut FrontScratch::default()).depth * 0.4 * THICKNESS, 2.0 * BODIES[0].1));
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //! - [`flow`]: front, depth, velocity, run-up, overtopping.
 
 mod barrier;
+mod beside;
 pub mod flow;
 pub mod layers;
 pub mod penetration;

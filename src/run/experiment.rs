@@ -136,7 +136,7 @@ pub struct Experiment {
     base_impulse: [f64; 2],
     facts: StageFacts,
     stopped: bool,
-    scratch_front: Vec<(f64, f64, f64, f64)>,
+    scratch_front: flow::FrontScratch,
     scratch_speed: Vec<f64>,
 }
 
@@ -161,7 +161,7 @@ impl Experiment {
             base_impulse: [0.0; 2],
             facts: StageFacts::default(),
             stopped: false,
-            scratch_front: Vec::new(),
+            scratch_front: flow::FrontScratch::default(),
             scratch_speed: Vec::new(),
         }
     }
@@ -260,8 +260,8 @@ impl Experiment {
             if self.simulation.steps().is_multiple_of(STEPS_PER_LOOK) {
                 // Structures are as good as at rest, and would make light of what the material does.
                 let (sim, barrier) = (&self.simulation, self.barrier_body());
-                let stock = sim.stock_of(|b| Some(b) != barrier && !sim.bodies()[b].weightless);
-                residual = (2.0 * stock.kinetic / stock.mass.max(f64::MIN_POSITIVE)).sqrt() / scale;
+                let motion = flow::motion(sim, |b| Some(b) != barrier && !sim.bodies()[b].weightless);
+                residual = (2.0 * motion.kinetic / motion.mass.max(f64::MIN_POSITIVE)).sqrt() / scale;
                 if residual > settle.residual {
                     last_above = self.simulation.time();
                 }
@@ -337,12 +337,12 @@ impl Experiment {
             recorder.step(&self.simulation)?;
             if self.simulation.time() >= (samples + 1) as f64 * interval {
                 samples = (self.simulation.time() / interval) as u64;
-                let row = self.sample(recorder)?;
-                recorder.history(&row)?;
                 let barrier = self.barrier_body();
-                let stock = self.simulation.stock_of(|b| Some(b) != barrier);
-                let weight = stock.mass * self.case.gravity.magnitude_m_per_s2;
-                rest.watch(&row, stock.momentum, interval, released, weight);
+                let motion = flow::motion(&self.simulation, |b| Some(b) != barrier);
+                let row = self.sample(&motion, recorder)?;
+                recorder.history(&row)?;
+                let weight = motion.mass * self.case.gravity.magnitude_m_per_s2;
+                rest.watch(&row, motion.momentum, interval, released, weight);
                 if samples.is_multiple_of(SAMPLES_PER_LEDGER) {
                     self.record_ledgers(recorder)?;
                 }
@@ -374,12 +374,12 @@ impl Experiment {
         }
     }
 
-    fn sample(&mut self, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
+    fn sample(&mut self, motion: &flow::Motion, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
         let sim = &self.simulation;
         let barrier = self.barrier_body();
         let mut row = HistoryRow {
             time: sim.time(),
-            kinetic: sim.stock_of(|b| Some(b) != barrier).kinetic,
+            kinetic: motion.kinetic,
             time_step: sim.time_step().dt,
             front: flow::front(sim, barrier, &mut self.scratch_front),
             penetration: flow::penetration(sim).0,

@@ -3,7 +3,7 @@
 use super::field::VelocityField;
 use super::{AccelerationField, ContactPoint, PicShare, Simulation, potential};
 use crate::band::{Band, Workspace};
-use crate::body::{Body, Particle};
+use crate::body::{Block, Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
 use crate::constitutive::Law;
@@ -113,6 +113,12 @@ impl Simulation {
     /// All points as (body index, point), in a fixed order that changes with sorting.
     pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
         self.fields.iter().flat_map(VelocityField::particles)
+    }
+
+    /// The same points block by block, for those who read two of their numbers and not all: body index, block, number of real
+    /// points.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, &Block, usize)> {
+        self.fields.iter().flat_map(VelocityField::blocks)
     }
 
     /// The points of one body, by its index, in a fixed order that changes with sorting.
