@@ -67,6 +67,11 @@ pub enum CaseError {
     },
 }
 
+/// A name as part of the name of a file or a column: in lower case, with `_` for what is neither letter nor digit.
+pub fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect()
+}
+
 /// Reads and checks a case file.
 pub fn load(path: &Path) -> Result<LoadedCase, CaseError> {
     let name = path.display().to_string();

@@ -233,6 +233,10 @@ pub struct Run {
 pub struct Gauges {
     /// Name of the boundary, or of the body in `contacts`, whose force is measured.
     pub barrier: Option<String>,
+    /// Names of several such boundaries and bodies, instead of `barrier`. The first is what is meant by the barrier; each of the others
+    /// has files and a table of results of its own. Default none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub barriers: Vec<String>,
     /// Name of the boundary whose friction holds the deposit.
     pub base: Option<String>,
     /// Samples per second, Hz, positive; a sample is the mean over its interval. Default 1000.
@@ -251,6 +255,7 @@ impl Default for Gauges {
     fn default() -> Self {
         Gauges {
             barrier: None,
+            barriers: Vec::new(),
             base: None,
             sample_rate_hz: 1000.0,
             stations_m: Vec::new(),
@@ -258,6 +263,13 @@ impl Default for Gauges {
             window_y_m: None,
             field_times_s: Vec::new(),
         }
+    }
+}
+
+impl Gauges {
+    /// Names of all barriers, in order.
+    pub fn barrier_names(&self) -> impl Iterator<Item = &str> {
+        self.barrier.iter().chain(&self.barriers).map(String::as_str)
     }
 }
 

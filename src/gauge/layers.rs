@@ -18,10 +18,10 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
     let (nx, ny) = (b.normal.x, b.normal.y);
     let reach = LAYERS[2] as f64 * h;
     let mut near: Vec<Near> = Vec::new();
-    for point in beside(b, reach, simulation.blocks()) {
+    beside(b, reach, simulation.blocks()).for_each(|point| {
         let (d, s) = b.face_coordinates(point.x());
         if d < -h || s < 0.0 || s > b.height() {
-            continue;
+            return;
         }
         let body = &simulation.bodies()[point.body];
         let p = point.block.get(point.lane, 0);
@@ -33,7 +33,7 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
             compression_volume: -normal_stress * body.point_volume * p.volume_ratio,
             spacing: body.point_spacing,
         });
-    }
+    });
     sum(&near, h)
 }
 

@@ -231,7 +231,7 @@ impl Simulation {
     /// What some bodies, chosen by index, hold now.
     pub fn stock_of(&self, chosen: impl Fn(usize) -> bool) -> Stock {
         let mut s = Stock::default();
-        for (body, p) in self.particles().filter(|(body, _)| chosen(*body)) {
+        self.particles().filter(|(body, _)| chosen(*body)).for_each(|(body, p)| {
             let body = &self.bodies[body];
             let m = body.point_mass;
             let heavy = if body.weightless { 0.0 } else { m };
@@ -242,7 +242,7 @@ impl Simulation {
             s.kinetic += 0.5 * m * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
             s.gravitational += heavy * potential(&self.forces.gravity, &p.x);
             s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
-        }
+        });
         s
     }
 

@@ -36,7 +36,7 @@ impl StructureGauge {
         let mut found = Survey { overtopped: simulation.ledger().departed_mass, ..Survey::default() };
         let mut near = Vec::new();
         let [least, most] = bounds[0];
-        for point in beside(&self.face, most.max(least), flowing_blocks(simulation, Some(self.body))) {
+        for point in beside(&self.face, most.max(least), flowing_blocks(simulation, &[self.body])) {
             let x = point.x();
             let (d, s) = self.face.face_coordinates(x);
             let body = &simulation.bodies()[point.body];
