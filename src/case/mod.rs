@@ -35,6 +35,7 @@ pub use schema::{
 pub use validate::{Findings, Problem, validate};
 
 use report::{Diagnostic, Level, Source};
+pub(crate) use suggest::did_you_mean;
 
 /// Longer files are not case files, bytes.
 const LONGEST_FILE: u64 = 4 << 20;
