@@ -37,6 +37,7 @@ pub use schema::{
 pub use validate::{Findings, Problem, validate};
 
 use report::{Diagnostic, Level, Source};
+pub(crate) use suggest::did_you_mean;
 
 /// Longer files are not case files, bytes.
 const LONGEST_FILE: u64 = 4 << 20;
@@ -67,6 +68,11 @@ pub enum CaseError {
         /// The same, problem by problem.
         problems: Vec<Problem>,
     },
+}
+
+/// A name as part of the name of a file or a column: in lower case, with `_` for what is neither letter nor digit.
+pub fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect()
 }
 
 /// Reads and checks a case file.

@@ -246,6 +246,11 @@ pub struct Gauges {
     /// Name of the boundary, or of the body, whose force is measured. Default: none. Allowed: the name of one of
     /// `[[boundaries]]`, or of a body in `[[contacts]]`, and not of both. Example: `"barrier"`.
     pub barrier: Option<String>,
+    /// Names of several such boundaries and bodies, instead of `barrier`. The first is what is meant by the barrier; each of the
+    /// others has files and a table of results of its own. Default: `[]`. Allowed: as `barrier`, each name once; not together
+    /// with `barrier`. Example: `["barrier", "second"]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub barriers: Vec<String>,
     /// Name of the boundary whose friction holds the deposit. Default: none. Allowed: the name of one of
     /// `[[boundaries]]`. Example: `"base"`.
     pub base: Option<String>,
@@ -268,6 +273,7 @@ impl Default for Gauges {
     fn default() -> Self {
         Gauges {
             barrier: None,
+            barriers: Vec::new(),
             base: None,
             sample_rate_hz: 1000.0,
             stations_m: Vec::new(),
@@ -275,6 +281,13 @@ impl Default for Gauges {
             window_y_m: None,
             field_times_s: Vec::new(),
         }
+    }
+}
+
+impl Gauges {
+    /// Names of all barriers, in order.
+    pub fn barrier_names(&self) -> impl Iterator<Item = &str> {
+        self.barrier.iter().chain(&self.barriers).map(String::as_str)
     }
 }
 

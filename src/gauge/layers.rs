@@ -5,6 +5,7 @@
 //! of the nearest one, divided by the thickness of k spacings. The nearest point is sought anew in each bin of one cell's
 //! height, so that material which has not arrived does not count.
 
+use super::beside::beside;
 use crate::simulation::Simulation;
 
 /// Layers that are averaged.
@@ -17,12 +18,13 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
     let (nx, ny) = (b.normal.x, b.normal.y);
     let reach = LAYERS[2] as f64 * h;
     let mut near: Vec<Near> = Vec::new();
-    for (index, p) in simulation.particles() {
-        let (d, s) = b.face_coordinates(p.x);
-        if d < -h || d > reach || s < 0.0 || s > b.height() {
-            continue;
+    beside(b, reach, simulation.blocks()).for_each(|point| {
+        let (d, s) = b.face_coordinates(point.x());
+        if d < -h || s < 0.0 || s > b.height() {
+            return;
         }
-        let body = &simulation.bodies()[index];
+        let body = &simulation.bodies()[point.body];
+        let p = point.block.get(point.lane, 0);
         let t = &p.state.stress;
         let normal_stress = nx * nx * t.xx + ny * ny * t.yy + 2.0 * nx * ny * t.xy;
         near.push(Near {
@@ -31,7 +33,7 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
             compression_volume: -normal_stress * body.point_volume * p.volume_ratio,
             spacing: body.point_spacing,
         });
-    }
+    });
     sum(&near, h)
 }
 

@@ -3,6 +3,7 @@
 //! - [`BarrierGauge`]: force, moment and pressure on a boundary, or on a body in contact, from the impulses at the grid nodes,
 //!   every step.
 //! - [`StructureGauge`]: a barrier that is a body: its clamp, its inertia, how it bends, whether it tears, the material beside it.
+//! - [`BaseGauge`]: force of a boundary on what lies on it.
 //! - [`layers`]: the same force from the stress of the nearest material points.
 //! - [`ReactionGauge`]: force and moment on a clamp, or between bodies.
 //! - [`penetration`]: how deep material lies inside a structure.
@@ -11,6 +12,8 @@
 //! Elsewhere: probes, sensors, load cells, history output, in-situ post-processing.
 
 mod barrier;
+mod base;
+mod beside;
 pub mod flow;
 pub mod layers;
 pub mod penetration;
@@ -18,5 +21,6 @@ mod reaction;
 pub mod structure;
 
 pub use barrier::{BarrierGauge, ForceSample, Peak, contact_impulse};
+pub use base::{BaseGauge, BaseSample};
 pub use reaction::{Reaction, ReactionGauge};
 pub use structure::{StructureGauge, StructureSample};

@@ -178,6 +178,10 @@ fn push_number(text: &mut String, value: f64, digits: usize) {
     }
     let start = text.len();
     let _ = write!(text, "{value:.*e}", digits.saturating_sub(1));
+    let magnitude = value.abs();
+    if digits <= UNIQUE_DIGITS && (1e-5..0.9e15).contains(&magnitude) {
+        return plain(text, start);
+    }
     let rounded: f64 = text[start..].parse().unwrap_or(value);
     text.truncate(start);
     let magnitude = rounded.abs();
@@ -188,6 +192,39 @@ fn push_number(text: &mut String, value: f64, digits: usize) {
     } else {
         write!(text, "{rounded:e}")
     };
+}
+
+/// No two decimal numbers with so many significant digits are the same double, so that the shortest form of one is itself.
+const UNIQUE_DIGITS: usize = 15;
+
+/// Turns the number from byte `start` on, `d.ddde-x` with one digit before the point, into plain form without zeros at its end.
+fn plain(text: &mut String, start: usize) {
+    const DIGITS: usize = 17;
+    let (mut digits, mut count, mut exponent) = ([b'0'; DIGITS], 0, 0);
+    let (sign, number) = text[start..].strip_prefix('-').map_or((0, &text[start..]), |rest| (1, rest));
+    if let Some((mantissa, power)) = number.split_once('e') {
+        exponent = power.parse::<i32>().unwrap_or(0);
+        for digit in mantissa.bytes().filter(u8::is_ascii_digit).take(DIGITS) {
+            digits[count] = digit;
+            count += 1;
+        }
+    }
+    while count > 1 && digits[count - 1] == b'0' {
+        count -= 1;
+    }
+    text.truncate(start + sign);
+    let before = exponent + 1;
+    if before <= 0 {
+        text.push_str("0.");
+        (before..0).for_each(|_| text.push('0'));
+    }
+    for (k, digit) in (0..).zip(&digits[..count]) {
+        if k == before && before > 0 {
+            text.push('.');
+        }
+        text.push(char::from(*digit));
+    }
+    (count as i32..before).for_each(|_| text.push('0'));
 }
 
 /// A column as read: its values, or the line and text of its first cell that is not a number.

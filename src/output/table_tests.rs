@@ -33,6 +33,28 @@ fn numbers_are_rounded_short_and_plain() {
 }
 
 #[test]
+fn the_plain_form_is_that_of_the_rounded_number() {
+    // Digits moved about by hand against the standard library's shortest form of the number rounded.
+    let mut state = 7u64;
+    for k in 0..20_000 {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let share = (state >> 11) as f64 / (1u64 << 53) as f64;
+        let power = 10f64.powi(k % 22 - 6);
+        let value = if k % 3 == 0 { (share * 1000.0).round() * power } else { share * power };
+        let value = if k % 2 == 0 { -value } else { value };
+        for digits in [1, 2, 6, 9, 12, 15] {
+            let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap();
+            if !(1e-5..1e15).contains(&rounded.abs()) {
+                continue;
+            }
+            let mut text = "x".to_owned();
+            push_number(&mut text, value, digits);
+            assert_eq!(text, format!("x{rounded}"), "{value:e} with {digits} digits");
+        }
+    }
+}
+
+#[test]
 fn seventeen_digits_keep_every_bit() {
     for value in [0.1, 1.0 / 3.0, 6.022e23, f64::MAX, f64::MIN_POSITIVE, 5e-324] {
         let mut text = String::new();

@@ -3,12 +3,12 @@
 //! Elsewhere: the driver; stages are load steps.
 
 use super::ProgressFn;
+use super::gauges::{Barrier, Gauges};
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
 use super::rest::RestWatch;
 use super::scene;
 use crate::case::Case;
-use crate::gauge::structure::ProfilePoint;
-use crate::gauge::{BarrierGauge, StructureGauge, flow, layers};
+use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, flow};
 use crate::output::OutputError;
 use crate::plot::PlotError;
 use crate::simulation::{Simulation, StepFailure};
@@ -130,42 +130,17 @@ pub struct StageFacts {
 pub struct Experiment {
     case: Case,
     simulation: Simulation,
-    barrier: Option<BarrierGauge>,
-    /// The same barrier, if it is a body.
-    structure: Option<StructureGauge>,
-    peak: PeakProfile,
-    base: Option<usize>,
-    base_impulse: [f64; 2],
+    gauges: Gauges,
     facts: StageFacts,
     stopped: bool,
-    scratch_front: Vec<(f64, f64, f64, f64)>,
-    scratch_speed: Vec<f64>,
 }
 
 impl Experiment {
     /// Sets up a case that has passed validation.
     pub fn new(case: &Case) -> Self {
         let simulation = Simulation::new(scene::build(case));
-        let find = |name: &Option<String>| name.as_ref().and_then(|n| simulation.boundary_index(n));
-        let structure = case.gauges.barrier.as_ref().and_then(|name| structure(case, &simulation, name));
-        let barrier = match &structure {
-            Some(s) => Some(BarrierGauge::on_body(&simulation, s.body(), s.face().clone())),
-            None => find(&case.gauges.barrier).map(|b| BarrierGauge::new(&simulation, b)),
-        };
-        let base = find(&case.gauges.base);
-        Self {
-            case: case.clone(),
-            simulation,
-            barrier,
-            structure,
-            peak: PeakProfile::default(),
-            base,
-            base_impulse: [0.0; 2],
-            facts: StageFacts::default(),
-            stopped: false,
-            scratch_front: Vec::new(),
-            scratch_speed: Vec::new(),
-        }
+        let gauges = Gauges::new(case, &simulation);
+        Self { case: case.clone(), simulation, gauges, facts: StageFacts::default(), stopped: false }
     }
 
     /// The simulation.
@@ -173,29 +148,29 @@ impl Experiment {
         &self.simulation
     }
 
+    /// The barriers, in the order of the case. The first is what is meant by the barrier.
+    pub fn barriers(&self) -> &[Barrier] {
+        &self.gauges.barriers
+    }
+
     /// The gauge on the barrier.
     pub fn barrier(&self) -> Option<&BarrierGauge> {
-        self.barrier.as_ref()
+        self.barriers().first().map(Barrier::force)
     }
 
-    /// The gauge on a barrier that is a body.
+    /// The gauge on the barrier, if it is a body.
     pub fn structure(&self) -> Option<&StructureGauge> {
-        self.structure.as_ref()
+        self.barriers().first().and_then(Barrier::structure)
     }
 
-    /// How a barrier that is a body was bent when the mean force of a sample was largest.
-    pub fn peak_profile(&self) -> &PeakProfile {
-        &self.peak
-    }
-
-    /// Index of the body that is the barrier: what is said of the flow leaves it out.
-    fn barrier_body(&self) -> Option<usize> {
-        self.structure.as_ref().map(StructureGauge::body)
+    /// Indices of the bodies that are barriers.
+    pub(super) fn structures(&self) -> &[usize] {
+        &self.gauges.structures
     }
 
     /// Index of the base.
     pub fn base(&self) -> Option<usize> {
-        self.base
+        self.gauges.base.as_ref().map(BaseGauge::boundary)
     }
 
     /// Gauges of the case.
@@ -215,7 +190,7 @@ impl Experiment {
 
     /// Level at which gravitational energy is zero: the barrier's foot, else the origin.
     pub fn datum(&self) -> [f64; 2] {
-        self.barrier.as_ref().map_or([0.0; 2], |g| g.face(&self.simulation).foot().into())
+        self.barrier().map_or([0.0; 2], |g| g.face(&self.simulation).foot().into())
     }
 
     /// All stages.
@@ -261,9 +236,9 @@ impl Experiment {
             self.simulation.step()?;
             if self.simulation.steps().is_multiple_of(STEPS_PER_LOOK) {
                 // Structures are as good as at rest, and would make light of what the material does.
-                let (sim, barrier) = (&self.simulation, self.barrier_body());
-                let stock = sim.stock_of(|b| Some(b) != barrier && !sim.bodies()[b].weightless);
-                residual = (2.0 * stock.kinetic / stock.mass.max(f64::MIN_POSITIVE)).sqrt() / scale;
+                let (sim, structures) = (&self.simulation, self.structures());
+                let motion = flow::motion(sim, |b| !structures.contains(&b) && !sim.bodies()[b].weightless);
+                residual = (2.0 * motion.kinetic / motion.mass.max(f64::MIN_POSITIVE)).sqrt() / scale;
                 if residual > settle.residual {
                     last_above = self.simulation.time();
                 }
@@ -282,7 +257,7 @@ impl Experiment {
         if !sim.steps().is_multiple_of(STEPS_PER_LOOK) {
             return;
         }
-        let force = self.barrier.as_ref().map_or(0.0, |g| g.step_force(sim));
+        let force = self.barrier().map_or(0.0, |g| g.step_force(sim));
         let (time, steps, particles) = (sim.time() - start, sim.steps(), sim.particle_count());
         let go_on = progress(&Progress { stage, time, end, steps, particles, force, residual });
         self.stopped |= !go_on;
@@ -296,9 +271,7 @@ impl Experiment {
         self.simulation.set_time(0.0);
         self.simulation.open_ledger();
         self.simulation.release_gates();
-        if let Some(structure) = &mut self.structure {
-            structure.open(&self.simulation);
-        }
+        self.gauges.open(&self.simulation);
         &self.simulation
     }
 
@@ -339,12 +312,11 @@ impl Experiment {
             recorder.step(&self.simulation)?;
             if self.simulation.time() >= (samples + 1) as f64 * interval {
                 samples = (self.simulation.time() / interval) as u64;
-                let row = self.sample(recorder)?;
+                let motion = flow::motion(&self.simulation, |b| !self.structures().contains(&b));
+                let row = self.sample(&motion, recorder)?;
                 recorder.history(&row)?;
-                let barrier = self.barrier_body();
-                let stock = self.simulation.stock_of(|b| Some(b) != barrier);
-                let weight = stock.mass * self.case.gravity.magnitude_m_per_s2;
-                rest.watch(&row, stock.momentum, interval, released, weight);
+                let weight = motion.mass * self.case.gravity.magnitude_m_per_s2;
+                rest.watch(&row, motion.momentum, interval, released, weight);
                 if samples.is_multiple_of(SAMPLES_PER_LEDGER) {
                     self.record_ledgers(recorder)?;
                 }
@@ -363,62 +335,30 @@ impl Experiment {
             self.facts.time_step[0] = step.dt;
             self.facts.shortest = Some(step);
         }
-        if let Some(gauge) = &mut self.barrier {
-            gauge.after_step(sim);
-        }
-        if let Some(gauge) = &mut self.structure {
-            gauge.after_step(sim);
-        }
-        if let Some(base) = self.base {
-            let (b, t) = (&sim.boundaries()[base], &sim.step_tallies()[base]);
-            self.base_impulse[0] += t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y;
-            self.base_impulse[1] += t.impulse[0] * b.tangent.x + t.impulse[1] * b.tangent.y;
-        }
+        self.gauges.after_step(sim);
     }
 
-    fn sample(&mut self, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
+    /// Reads the gauges; what is read at barriers but the first goes to recorders of their own.
+    fn sample(&mut self, motion: &flow::Motion, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
         let sim = &self.simulation;
-        let barrier = self.barrier_body();
-        let mut row = HistoryRow {
-            time: sim.time(),
-            kinetic: sim.stock_of(|b| Some(b) != barrier).kinetic,
-            time_step: sim.time_step().dt,
-            front: flow::front(sim, barrier, &mut self.scratch_front),
-            penetration: flow::penetration(sim).0,
-            ..HistoryRow::default()
-        };
-        if let Some(gauge) = &mut self.barrier {
-            let force = gauge.sample();
-            row.normal = force.normal;
-            row.tangential = force.tangential;
-            row.moment = force.moment;
-            row.normal_max = force.normal_max;
-            if let Some(boundary) = gauge.boundary() {
-                row.layers = layers::normal_force(sim, boundary);
-                let wall = flow::wall_state(sim, boundary);
-                row.run_up = wall.run_up;
-                row.overtopped = wall.overtopped;
+        let mut row = self.gauges.sample(sim, motion);
+        for (k, barrier) in self.gauges.barriers.iter_mut().enumerate() {
+            let sample = barrier.sample(sim);
+            if let Some(s) = &sample.structure {
+                row.penetration = row.penetration.max(s.survey.penetration);
             }
-            if self.base.is_some() && force.duration > 0.0 {
-                row.base_normal = self.base_impulse[0] / force.duration;
-                row.base_friction = self.base_impulse[1] / force.duration;
-                self.base_impulse = [0.0; 2];
+            if k == 0 {
+                sample.write(&mut row);
             }
-        }
-        if let Some(gauge) = &mut self.structure {
-            let sample = gauge.sample(sim);
-            row.layers = sample.survey.layers;
-            row.run_up = sample.survey.run_up;
-            row.overtopped = sample.survey.overtopped;
-            row.penetration = row.penetration.max(sample.survey.penetration);
-            if row.normal > self.peak.force {
-                self.peak = PeakProfile { force: row.normal, time: row.time, points: gauge.profile() };
+            let Some(recorder) = of_barrier(recorder, k) else { continue };
+            if k > 0 {
+                let mut own = HistoryRow { time: row.time, ..HistoryRow::default() };
+                sample.write(&mut own);
+                recorder.history(&own)?;
             }
-            recorder.structure(row.time, &sample)?;
-        }
-        if let (Some(x), Some(y)) = (self.case.gauges.window_x_m, self.case.gauges.window_y_m) {
-            let speed = flow::window_speed(sim, barrier, &flow::Window { x, y }, &mut self.scratch_speed);
-            row.window_speed = [speed.0, speed.1];
+            if let Some(s) = &sample.structure {
+                recorder.structure(row.time, s)?;
+            }
         }
         Ok(row)
     }
@@ -429,9 +369,9 @@ impl Experiment {
         let balance = sim.energy_balance(&now, self.datum());
         recorder.energy(&EnergyRow { time: sim.time(), balance })?;
         recorder.momentum(&MomentumRow::new(sim.time(), sim.ledger(), sim.opening(), &now))?;
-        let at = &self.case.gauges.stations_m;
+        let at = &self.gauges.stations;
         if !at.is_empty() {
-            let rows = flow::stations(sim, self.barrier_body(), at);
+            let rows = flow::stations(sim, self.structures(), at);
             let rows: Vec<_> = at.iter().zip(rows).map(|(&x, (depth, velocity))| (x, depth, velocity)).collect();
             recorder.stations(sim.time(), &rows)?;
         }
@@ -439,37 +379,34 @@ impl Experiment {
     }
 
     fn record_field(&self, time: f64, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
-        recorder.field(time, &flow::velocity_field(&self.simulation, self.barrier_body()))?;
-        self.structure.as_ref().map_or(Ok(()), |s| recorder.outline(time, &s.outline()))
+        recorder.field(time, &flow::velocity_field(&self.simulation, self.structures()))?;
+        for (k, barrier) in self.barriers().iter().enumerate() {
+            if let (Some(structure), Some(recorder)) = (barrier.structure(), of_barrier(recorder, k)) {
+                recorder.outline(time, &structure.outline())?;
+            }
+        }
+        Ok(())
     }
 
     fn record_profile(&mut self, time: f64, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
-        let thickness = self.simulation.thickness();
-        if let Some(gauge) = self.structure.as_ref().filter(|_| time > 0.0) {
-            recorder.bending(time, &gauge.profile())?;
+        if time <= 0.0 {
+            return Ok(());
         }
-        match &mut self.barrier {
-            Some(gauge) if time > 0.0 => recorder.profile(time, &gauge.profile(thickness)),
-            _ => Ok(()),
+        for (k, barrier) in self.gauges.barriers.iter_mut().enumerate() {
+            let Some(recorder) = of_barrier(recorder, k) else { continue };
+            if let Some(structure) = barrier.structure() {
+                recorder.bending(time, &structure.profile())?;
+            }
+            recorder.profile(time, &barrier.pressure(&self.simulation))?;
         }
+        Ok(())
     }
 }
 
-/// How a barrier was bent at its largest force.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct PeakProfile {
-    /// Mean normal force of the sample, N.
-    pub force: f64,
-    /// End of the sample, s.
-    pub time: f64,
-    /// The points of its face.
-    pub points: Vec<ProfilePoint>,
-}
-
-/// The gauge on the body of this name; `None` if a boundary has it.
-fn structure(case: &Case, simulation: &Simulation, name: &str) -> Option<StructureGauge> {
-    let (body, face) = (scene::index(case, name)?, scene::barrier_face(case, name)?);
-    let b = &case.bodies[body];
-    let counts = b.particle_counts(&case.grid).map(|n| n as usize);
-    Some(StructureGauge::new(simulation, body, face, counts, b.rotation_deg.to_radians()))
+/// Who records what is read at a barrier, by its number.
+fn of_barrier(recorder: &mut dyn Recorder, barrier: usize) -> Option<&mut dyn Recorder> {
+    match barrier.checked_sub(1) {
+        None => Some(recorder),
+        Some(further) => recorder.further(further),
+    }
 }

@@ -5,15 +5,17 @@
 //! on the wall clock, the number of threads or the place of the folder: the same case gives the same bytes.
 
 use super::ProgressFn;
+use super::columns::{self, Names, OpenTable, TableKind};
 use super::experiment::{Experiment, RunError};
-use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records, STRUCTURE_COLUMNS, structure_values};
+use super::gauges::{Barrier, PeakProfile};
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
 use super::summary::Summary;
 use crate::boundary::{Boundary, Solid};
-use crate::case::Case;
+use crate::case::{Case, file_name};
 use crate::gauge::StructureSample;
 use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
-use crate::output::{self, Field, OutputError, Polyline, PvdWriter, Table, TableWriter, Values};
+use crate::output::{self, Field, OutputError, Polyline, PvdWriter, Table, Values};
 use crate::plot::curves::{Curve, Curves};
 use crate::plot::{self, PlotError, force_time::ReferenceLine};
 use crate::simulation::Simulation;
@@ -66,66 +68,86 @@ pub fn run_into(
     let end = experiment.run(&mut folder, progress);
     let closed = folder.close().map_err(RunError::from);
     let end = end.and_then(|end| closed.map(|()| end));
+    let records = folder.into_records();
     let summary = match &end {
-        Ok(end) => Summary::new(case, &experiment, &folder.records, *end),
-        Err(error) => Summary::failed(case, &experiment, &folder.records, &error.to_string()),
+        Ok(end) => Summary::new(case, &experiment, &records, *end),
+        Err(error) => Summary::failed(case, &experiment, &records, &error.to_string()),
     };
-    let written = output::write_text(directory.join("summary.toml"), &summary.to_toml())
-        .and_then(|()| write_peak_profile(directory, &experiment));
-    let drawn = draw_figures(case, directory, &summary);
+    let mut barriers = experiment.barriers().iter().enumerate();
+    let mut peaks = || barriers.try_for_each(|(k, b)| write_peak_profile(directory, &suffix(b, k), b.peak_profile()));
+    let written = output::write_text(directory.join("summary.toml"), &summary.to_toml()).and_then(|()| peaks());
+    let drawn = draw_figures(case, directory, &experiment, &summary);
     // The first thing that went wrong is reported: what follows from it would only hide it.
     end?;
     written?;
     drawn?;
-    Ok((experiment, folder.records, summary))
+    Ok((experiment, records, summary))
 }
 
-/// Draws all figures of a run from its tables, leaving out those whose table has no row yet.
-///
-/// # Errors
-/// The first figure that could not be drawn.
-pub fn draw_figures(case: &Case, directory: &Path, summary: &Summary) -> Result<(), PlotError> {
+/// Draws all figures of a run from its tables, leaving out those whose table has no row yet. All of them are tried, also when one
+/// fails.
+fn draw_figures(case: &Case, directory: &Path, experiment: &Experiment, summary: &Summary) -> Result<(), PlotError> {
     let at = |name: &str| directory.join(name);
-    let empty = |name: &str| Table::load(at(name)).is_ok_and(|table| table.rows() == 0);
-    let force = || {
-        let value = summary.deposit.as_ref().map(|d| d.theoretical_static_force_n).filter(|f| f.is_finite());
-        let label = "weight less full base friction\nm g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})";
-        let lines: Vec<_> = value.map(|v| ReferenceLine::new(label, v)).into_iter().collect();
-        plot::force_time::draw(at("history.csv"), &lines, at("force_time.svg"))
-    };
-    let profile = || plot::pressure_profile::draw(at("pressure_profile.csv"), at("pressure_profile.svg"));
-    let energy = || plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg"));
-    let inclination = case.gravity.inclination_deg;
-    let outline = at("barrier_outline.csv");
-    let bends = outline.exists();
-    let flow = || {
+    let has_rows = |name: &str| !Table::load(at(name)).is_ok_and(|table| table.rows() == 0);
+    let mut results = Vec::new();
+    for (k, barrier) in experiment.barriers().iter().enumerate() {
+        results.extend(draw_barrier(
+            directory,
+            &suffix(barrier, k),
+            barrier,
+            if k == 0 { Some(summary) } else { None },
+        ));
+    }
+    if summary.energy.initial_j > 0.0 && has_rows("energy.csv") {
+        results.push(plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg")));
+    }
+    if !case.gauges.field_times_s.is_empty() && has_rows("field.csv") {
+        let bends = experiment.barriers().iter().enumerate().find(|(_, b)| b.structure().is_some());
+        let outline = bends.map(|(k, b)| at(&format!("barrier_outline{}.csv", suffix(b, k))));
         let (field, geometry, out) = (at("field.csv"), at("geometry.csv"), at("flow_snapshots.svg"));
-        let shown = &plot::flow_snapshots::Shown::SPEED;
-        plot::flow_snapshots::draw_with_barrier(field, shown, geometry, bends.then_some(&*outline), inclination, out)
-    };
-    let clamp = || plot::curves::draw(at("barrier.csv"), &BARRIER_FORCES, at("barrier_forces.svg"));
-    let bent = || plot::curves::draw(at(PEAK_PROFILE), &PEAK_DEFLECTION, at("barrier_deflection.svg"));
-
-    let barrier = case.gauges.barrier.is_some();
-    let fields = !case.gauges.field_times_s.is_empty();
-    type Draw<'a> = &'a dyn Fn() -> Result<(), PlotError>;
-    let body = summary.structure.is_some();
-    let figures: [(bool, &str, Draw); 6] = [
-        (body, "barrier.csv", &clamp),
-        (body && at(PEAK_PROFILE).exists(), PEAK_PROFILE, &bent),
-        (barrier, "history.csv", &force),
-        (barrier, "pressure_profile.csv", &profile),
-        (summary.energy.initial_j > 0.0, "energy.csv", &energy),
-        (fields, "field.csv", &flow),
-    ];
-    let wanted = figures.into_iter().filter(|(wanted, table, _)| *wanted && !empty(table));
-    // All of them, also when one fails.
-    let results: Vec<_> = wanted.map(|(_, _, draw)| draw()).collect();
+        let (shown, inclination) = (&plot::flow_snapshots::Shown::SPEED, case.gravity.inclination_deg);
+        let drawn =
+            plot::flow_snapshots::draw_with_barrier(field, shown, geometry, outline.as_deref(), inclination, out);
+        results.push(drawn);
+    }
     results.into_iter().collect()
 }
 
-/// The table of how a barrier was bent at its largest force.
-const PEAK_PROFILE: &str = "barrier_profile_at_peak.csv";
+/// Draws the figures of a barrier from its tables. The force that it would take at least is known of the first, with its `summary`.
+fn draw_barrier(
+    directory: &Path,
+    suffix: &str,
+    barrier: &Barrier,
+    summary: Option<&Summary>,
+) -> Vec<Result<(), PlotError>> {
+    let at = |name: &str, kind: &str| directory.join(format!("{name}{suffix}.{kind}"));
+    let has_rows = |name: &str| !Table::load(at(name, "csv")).is_ok_and(|table| table.rows() == 0);
+    let mut results = Vec::new();
+    if barrier.structure().is_some() && has_rows("barrier") {
+        results.push(plot::curves::draw(at("barrier", "csv"), &BARRIER_FORCES, at("barrier_forces", "svg")));
+    }
+    if !barrier.peak_profile().points.is_empty() {
+        let (table, figure) = (at("barrier_profile_at_peak", "csv"), at("barrier_deflection", "svg"));
+        results.push(plot::curves::draw(table, &PEAK_DEFLECTION, figure));
+    }
+    if has_rows("history") {
+        let deposit = summary.and_then(|s| s.deposit.as_ref());
+        let value = deposit.map(|d| d.theoretical_static_force_n).filter(|f| f.is_finite());
+        let label = "weight less full base friction\nm g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})";
+        let lines: Vec<_> = value.map(|v| ReferenceLine::new(label, v)).into_iter().collect();
+        results.push(plot::force_time::draw(at("history", "csv"), &lines, at("force_time", "svg")));
+    }
+    if has_rows("pressure_profile") {
+        let (table, figure) = (at("pressure_profile", "csv"), at("pressure_profile", "svg"));
+        results.push(plot::pressure_profile::draw(table, figure));
+    }
+    results
+}
+
+/// What follows in the names of a barrier's files, by its number: nothing for the first, else its name.
+fn suffix(barrier: &Barrier, number: usize) -> String {
+    if number == 0 { String::new() } else { format!("_{}", file_name(barrier.name())) }
+}
 
 /// Force on a barrier that is a body: what contact gives, what the clamp takes, what is left as momentum.
 const BARRIER_FORCES: Curves = Curves {
@@ -149,146 +171,175 @@ const PEAK_DEFLECTION: Curves = Curves {
     ..Curves::LINEAR
 };
 
-/// Columns of the tables of a bent barrier, through time and at its largest force.
-const BENDING_COLUMNS: [&str; 4] = ["time_s", "height_m", "deflection_m", "velocity_m_per_s"];
-
 /// How a barrier that is a body was bent at its largest force.
-fn write_peak_profile(directory: &Path, experiment: &Experiment) -> Result<(), OutputError> {
-    let peak = experiment.peak_profile();
+fn write_peak_profile(directory: &Path, suffix: &str, peak: &PeakProfile) -> Result<(), OutputError> {
     if peak.points.is_empty() {
         return Ok(());
     }
-    let mut table = TableWriter::create(directory.join(PEAK_PROFILE), &BENDING_COLUMNS)?;
-    peak.points.iter().try_for_each(|p| table.row(&[peak.time, p.height, p.deflection, p.velocity]))?;
-    table.finish().map(|_| ())
+    let path = directory.join(format!("barrier_profile_at_peak{suffix}.csv"));
+    let mut table = OpenTable::create(&columns::BENDING_AT_PEAK, &path, Names::default())?;
+    peak.points.iter().try_for_each(|p| table.row(&(peak.time, *p)))?;
+    table.finish()
 }
 
 /// The open tables of a run.
 struct Folder {
     directory: PathBuf,
-    history: TableWriter,
-    energy: TableWriter,
-    momentum: TableWriter,
-    stations: Option<TableWriter>,
-    profile: Option<TableWriter>,
-    field: Option<TableWriter>,
-    structure: Option<TableWriter>,
-    bending: Option<TableWriter>,
-    outline: Option<TableWriter>,
+    /// History, and what is read at the first barrier.
+    first: BarrierTables,
+    /// What is read at the other barriers.
+    further: Vec<BarrierTables>,
+    energy: OpenTable<EnergyRow>,
+    momentum: OpenTable<MomentumRow>,
+    stations: Option<OpenTable<[f64; 4]>>,
+    field: Option<OpenTable<(f64, FieldCell)>>,
     frames: Option<PvdWriter>,
     frame_count: usize,
+}
+
+/// The open tables of a barrier, and what was written into them.
+struct BarrierTables {
+    history: OpenTable<HistoryRow>,
+    pressure: Option<OpenTable<[f64; 3]>>,
+    structure: Option<OpenTable<(f64, StructureSample)>>,
+    bending: Option<OpenTable<(f64, ProfilePoint)>>,
+    outline: Option<OpenTable<[f64; 3]>>,
     records: Records,
+}
+
+impl BarrierTables {
+    /// Those of a barrier with this number; without one there is a history all the same.
+    fn create(directory: &Path, number: usize, barrier: Option<&Barrier>, fields: bool) -> Result<Self, OutputError> {
+        let suffix = barrier.map_or_else(String::new, |b| suffix(b, number));
+        let at = |name: &str| directory.join(format!("{name}{suffix}.csv"));
+        let kind = if number == 0 { &columns::HISTORY } else { &columns::FURTHER };
+        let (any, bends) = (barrier.is_some(), barrier.is_some_and(|b| b.structure().is_some()));
+        Ok(Self {
+            history: OpenTable::create(kind, &at("history"), Names::default())?,
+            pressure: optional(any, &columns::PRESSURE, &at("pressure_profile"))?,
+            structure: optional(bends, &columns::STRUCTURE, &at("barrier"))?,
+            bending: optional(bends, &columns::BENDING, &at("barrier_profile"))?,
+            outline: optional(bends && fields, &columns::OUTLINE, &at("barrier_outline"))?,
+            records: Records::default(),
+        })
+    }
+
+    /// Hands all rows to the files; all of them, also when one fails.
+    fn flush(&mut self) -> Result<(), OutputError> {
+        let results = [self.history.flush(), flush(&mut self.pressure), flush(&mut self.structure)];
+        let results = results.into_iter().chain([flush(&mut self.bending), flush(&mut self.outline)]);
+        results.collect::<Vec<_>>().into_iter().collect()
+    }
+}
+
+/// A table that is there if it is wanted.
+fn optional<R>(wanted: bool, kind: &'static TableKind<R>, path: &Path) -> Result<Option<OpenTable<R>>, OutputError> {
+    wanted.then(|| OpenTable::create(kind, path, Names::default())).transpose()
+}
+
+fn flush<R>(table: &mut Option<OpenTable<R>>) -> Result<(), OutputError> {
+    table.as_mut().map_or(Ok(()), OpenTable::flush)
+}
+
+impl Recorder for BarrierTables {
+    fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError> {
+        self.records.history(row)?;
+        self.history.row(row)
+    }
+
+    fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError> {
+        self.records.energy(row)
+    }
+
+    fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError> {
+        self.records.momentum(row)
+    }
+
+    fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.pressure else { return Ok(()) };
+        rows.iter().try_for_each(|&(height, pressure)| table.row(&[time, height, pressure]))
+    }
+
+    fn structure(&mut self, time: f64, sample: &StructureSample) -> Result<(), OutputError> {
+        self.records.structure(time, sample)?;
+        self.structure.as_mut().map_or(Ok(()), |table| table.row(&(time, *sample)))
+    }
+
+    fn bending(&mut self, time: f64, rows: &[ProfilePoint]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.bending else { return Ok(()) };
+        rows.iter().try_for_each(|p| table.row(&(time, *p)))
+    }
+
+    fn outline(&mut self, time: f64, points: &[[f64; 2]]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.outline else { return Ok(()) };
+        points.iter().try_for_each(|x| table.row(&[time, x[0], x[1]]))
+    }
 }
 
 impl Folder {
     fn create(directory: &Path, experiment: &Experiment) -> Result<Self, OutputError> {
         let sim = experiment.simulation();
         let gauges = experiment.gauges();
-        let names: Vec<String> = sim.boundaries().iter().map(|b| column_name(&b.name)).collect();
-        let body = |k: usize| column_name(&sim.bodies()[k].name);
+        let boundaries: Vec<String> = sim.boundaries().iter().map(|b| file_name(&b.name)).collect();
+        let body = |k: usize| file_name(&sim.bodies()[k].name);
         let pairs = sim.contacts().map(|c| format!("{}_on_{}", body(c.bodies[0]), body(c.bodies[1])));
-        let where_energy_goes: Vec<String> = names.iter().cloned().chain(pairs).collect();
-        let table = |name: &str, columns: &[String]| TableWriter::create(directory.join(name), columns);
-        let fixed = |columns: &[&str]| columns.iter().map(ToString::to_string).collect::<Vec<_>>();
-        let optional =
-            |wanted: bool, name: &str, columns: &[&str]| wanted.then(|| table(name, &fixed(columns))).transpose();
-        let has_barrier = experiment.barrier().is_some();
-        let bends = experiment.structure().is_some();
+        let surfaces = boundaries.iter().cloned().chain(pairs).collect();
+        let names = Names { boundaries, surfaces };
+        let at = |name: &str| directory.join(name);
         let frames = if experiment.vtk_interval() > 0.0 {
-            let frames = directory.join("vtk");
+            let frames = at("vtk");
             fs::create_dir_all(&frames).map_err(|source| OutputError::Create { path: frames, source })?;
             write_geometry_vtk(directory, sim)?;
-            Some(PvdWriter::create(directory.join("flow.pvd"))?)
+            Some(PvdWriter::create(at("flow.pvd"))?)
         } else {
             None
         };
         write_geometry_table(directory, sim)?;
+        let fields = !gauges.field_times_s.is_empty();
+        let barriers = experiment.barriers();
+        let further = barriers.iter().enumerate().skip(1);
         Ok(Self {
             directory: directory.to_path_buf(),
-            history: table("history.csv", &fixed(&HistoryRow::COLUMNS))?,
-            energy: table("energy.csv", &energy_columns(&where_energy_goes))?,
-            momentum: table("momentum.csv", &momentum_columns(&names))?,
-            stations: optional(
-                !gauges.stations_m.is_empty(),
-                "stations.csv",
-                &["time_s", "x_m", "depth_m", "velocity_m_per_s"],
-            )?,
-            profile: optional(has_barrier, "pressure_profile.csv", &["time_s", "height_m", "pressure_pa"])?,
-            field: optional(
-                !gauges.field_times_s.is_empty(),
-                "field.csv",
-                &[
-                    "time_s",
-                    "x_m",
-                    "y_m",
-                    "solid_fraction",
-                    "velocity_x_m_per_s",
-                    "velocity_y_m_per_s",
-                    "speed_m_per_s",
-                    "pressure_pa",
-                    "plastic_shear_strain",
-                ],
-            )?,
-            structure: optional(bends, "barrier.csv", &STRUCTURE_COLUMNS)?,
-            bending: optional(bends, "barrier_profile.csv", &BENDING_COLUMNS)?,
-            outline: optional(
-                bends && !gauges.field_times_s.is_empty(),
-                "barrier_outline.csv",
-                &["time_s", "x_m", "y_m"],
-            )?,
+            first: BarrierTables::create(directory, 0, barriers.first(), fields)?,
+            further: further
+                .map(|(k, b)| BarrierTables::create(directory, k, Some(b), fields))
+                .collect::<Result<_, _>>()?,
+            energy: OpenTable::create(&columns::ENERGY, &at("energy.csv"), names.clone())?,
+            momentum: OpenTable::create(&columns::MOMENTUM, &at("momentum.csv"), names)?,
+            stations: optional(!gauges.stations_m.is_empty(), &columns::STATIONS, &at("stations.csv"))?,
+            field: optional(fields, &columns::FIELD, &at("field.csv"))?,
             frames,
             frame_count: 0,
-            records: Records::default(),
         })
     }
 
+    /// Hands all rows to the files; all of them, also when one fails.
     fn close(&mut self) -> Result<(), OutputError> {
-        let always = [&mut self.history, &mut self.energy, &mut self.momentum];
-        let tables = [
-            &mut self.stations,
-            &mut self.profile,
-            &mut self.field,
-            &mut self.structure,
-            &mut self.bending,
-            &mut self.outline,
-        ];
-        let optional = tables.into_iter().flatten();
-        // All of them, also when one fails.
-        let results: Vec<_> = always.into_iter().chain(optional).map(TableWriter::flush).collect();
+        let mut results = vec![self.first.flush(), self.energy.flush(), self.momentum.flush()];
+        results.extend([flush(&mut self.stations), flush(&mut self.field)]);
+        results.extend(self.further.iter_mut().map(BarrierTables::flush));
         results.into_iter().collect()
+    }
+
+    /// What was recorded.
+    fn into_records(self) -> Records {
+        Records { further: self.further.into_iter().map(|b| b.records).collect(), ..self.first.records }
     }
 }
 
 impl Recorder for Folder {
     fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError> {
-        self.records.history(row)?;
-        self.history.row(&row.values())
+        self.first.history(row)
     }
 
     fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError> {
-        self.records.energy(row)?;
-        let e = &row.balance;
-        let mut values = vec![row.time, e.kinetic, e.gravitational, e.elastic, e.plastic];
-        values.extend(&e.friction);
-        values.extend(&e.contact);
-        values.extend([e.pic, e.damping, e.side_walls, e.outflow, e.residual]);
-        self.energy.row(&values)
+        self.first.energy(row)?;
+        self.energy.row(row)
     }
 
     fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError> {
-        self.records.momentum(row)?;
-        let l = &row.ledger;
-        let mut values = vec![row.time];
-        values.extend(row.gained);
-        values.extend(l.gravity);
-        for boundary in &l.boundaries {
-            values.extend(boundary.impulse);
-        }
-        values.extend(l.damping.impulse);
-        values.extend(l.side_walls.impulse);
-        values.extend(l.departed_momentum.map(|p| -p));
-        values.extend(row.residual);
-        self.momentum.row(&values)?;
+        self.first.momentum(row)?;
+        self.momentum.row(row)?;
         // Once per ledger row everything is on disk.
         self.close()
     }
@@ -299,32 +350,28 @@ impl Recorder for Folder {
     }
 
     fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.profile else { return Ok(()) };
-        rows.iter().try_for_each(|&(height, pressure)| table.row(&[time, height, pressure]))
+        self.first.profile(time, rows)
     }
 
     fn structure(&mut self, time: f64, sample: &StructureSample) -> Result<(), OutputError> {
-        self.records.structure(time, sample)?;
-        let Some(table) = &mut self.structure else { return Ok(()) };
-        table.row(&structure_values(time, sample))
+        self.first.structure(time, sample)
     }
 
     fn bending(&mut self, time: f64, rows: &[ProfilePoint]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.bending else { return Ok(()) };
-        rows.iter().try_for_each(|p| table.row(&[time, p.height, p.deflection, p.velocity]))
+        self.first.bending(time, rows)
     }
 
     fn outline(&mut self, time: f64, points: &[[f64; 2]]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.outline else { return Ok(()) };
-        points.iter().try_for_each(|x| table.row(&[time, x[0], x[1]]))
+        self.first.outline(time, points)
     }
 
     fn field(&mut self, time: f64, cells: &[FieldCell]) -> Result<(), OutputError> {
         let Some(table) = &mut self.field else { return Ok(()) };
-        let values = |c: &FieldCell| {
-            [time, c.x[0], c.x[1], c.fill, c.v[0], c.v[1], c.v[0].hypot(c.v[1]), c.pressure, c.plastic_shear]
-        };
-        cells.iter().try_for_each(|c| table.row(&values(c)))
+        cells.iter().try_for_each(|c| table.row(&(time, *c)))
+    }
+
+    fn further(&mut self, barrier: usize) -> Option<&mut dyn Recorder> {
+        self.further.get_mut(barrier).map(|b| b as &mut dyn Recorder)
     }
 
     fn frame(&mut self, simulation: &Simulation) -> Result<(), OutputError> {
@@ -354,31 +401,6 @@ impl Recorder for Folder {
         self.frame_count += 1;
         Ok(())
     }
-}
-
-/// A boundary's name as part of a column name.
-fn column_name(name: &str) -> String {
-    name.chars().map(|c| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect()
-}
-
-fn energy_columns(boundaries: &[String]) -> Vec<String> {
-    let start = ["time_s", "kinetic_j", "gravitational_j", "elastic_j", "plastic_j"].map(String::from);
-    let friction = boundaries.iter().map(|b| format!("friction_{b}_j"));
-    let contact = boundaries.iter().map(|b| format!("contact_{b}_j"));
-    let end = ["pic_j", "damping_j", "side_walls_j", "outflow_j", "residual_j"].map(String::from);
-    start.into_iter().chain(friction).chain(contact).chain(end).collect()
-}
-
-fn momentum_columns(boundaries: &[String]) -> Vec<String> {
-    let both = |name: &str| [format!("{name}_x_n_s"), format!("{name}_y_n_s")];
-    let mut columns = vec!["time_s".to_string()];
-    columns.extend(both("gained"));
-    columns.extend(both("gravity"));
-    columns.extend(boundaries.iter().flat_map(|b| both(b)));
-    for name in ["damping", "side_walls", "outflow", "residual"] {
-        columns.extend(both(name));
-    }
-    columns
 }
 
 /// Outlines of the boundaries that stay, planes cut to a strip two cells thick along the domain.
@@ -418,13 +440,13 @@ pub fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
 }
 
 fn write_geometry_table(directory: &Path, simulation: &Simulation) -> Result<(), OutputError> {
-    let mut table = TableWriter::create(directory.join("geometry.csv"), &["boundary", "x_m", "y_m"])?;
+    let mut table = OpenTable::create(&columns::GEOMETRY, &directory.join("geometry.csv"), Names::default())?;
     for (index, corners) in outlines(simulation) {
         for c in corners {
             table.row(&[index as f64, c[0], c[1]])?;
         }
     }
-    table.finish().map(|_| ())
+    table.finish()
 }
 
 fn write_geometry_vtk(directory: &Path, simulation: &Simulation) -> Result<(), OutputError> {

@@ -1,10 +1,14 @@
 //! Runs a case: settle, tilt, release, record.
 //!
-//! [`Experiment`] drives a simulation through its stages and reads the gauges; [`records`] says what is recorded; [`files`]
+//! [`Experiment`] drives a simulation through its stages and reads the [`gauges`]; [`records`] says what is recorded, [`columns`]
+//! what stands in each column of a table; [`files`]
 //! writes it down; [`summary`] draws the conclusions.
 
+mod barrier;
+mod columns;
 mod experiment;
 pub mod files;
+pub mod gauges;
 mod means;
 pub mod records;
 mod rest;
@@ -12,6 +16,7 @@ pub mod scene;
 pub mod structure;
 pub mod summary;
 
+pub use columns::{ColumnText, TableText, columns};
 pub use experiment::{Experiment, Progress, RunError, Stage};
 pub use records::{Recorder, Records};
 pub use summary::Summary;

@@ -30,7 +30,7 @@ pub struct HistoryRow {
     pub base_friction: f64,
     /// Front, m, m/s, m.
     pub front: crate::gauge::flow::Front,
-    /// Highest material at the barrier, m.
+    /// Highest material at the barrier, m above its foot.
     pub run_up: f64,
     /// Mass behind the barrier's face, kg.
     pub overtopped: f64,
@@ -42,104 +42,6 @@ pub struct HistoryRow {
     pub penetration: f64,
     /// Time step, s.
     pub time_step: f64,
-}
-
-impl HistoryRow {
-    /// Column names of the history table.
-    pub const COLUMNS: [&str; 20] = [
-        "time_s",
-        "force_normal_n",
-        "force_tangential_n",
-        "overturning_moment_n_m",
-        "force_normal_max_n",
-        "force_layer1_n",
-        "force_layer2_n",
-        "force_layer3_n",
-        "base_normal_n",
-        "base_friction_n",
-        "front_x_m",
-        "front_velocity_m_per_s",
-        "front_depth_m",
-        "run_up_m",
-        "overtopped_kg",
-        "window_speed_mean_m_per_s",
-        "window_speed_p95_m_per_s",
-        "kinetic_j",
-        "penetration_m",
-        "time_step_s",
-    ];
-
-    /// The values, parallel to [`Self::COLUMNS`].
-    pub fn values(&self) -> [f64; 20] {
-        [
-            self.time,
-            self.normal,
-            self.tangential,
-            self.moment,
-            self.normal_max,
-            self.layers[0],
-            self.layers[1],
-            self.layers[2],
-            self.base_normal,
-            self.base_friction,
-            self.front.x,
-            self.front.velocity,
-            self.front.depth,
-            self.run_up,
-            self.overtopped,
-            self.window_speed[0],
-            self.window_speed[1],
-            self.kinetic,
-            self.penetration,
-            self.time_step,
-        ]
-    }
-}
-
-/// Column names of the table of a barrier that is a body.
-pub const STRUCTURE_COLUMNS: [&str; 18] = [
-    "time_s",
-    "contact_normal_n",
-    "contact_tangential_n",
-    "clamp_normal_n",
-    "clamp_tangential_n",
-    "clamp_moment_n_m",
-    "inertia_normal_n",
-    "inertia_tangential_n",
-    "imbalance",
-    "tip_deflection_m",
-    "tip_velocity_m_per_s",
-    "largest_deflection_m",
-    "largest_deflection_height_m",
-    "penetration_m",
-    "gap_cells",
-    "gap_height_m",
-    "run_up_m",
-    "overtopped_kg",
-];
-
-/// The values, parallel to [`STRUCTURE_COLUMNS`].
-pub fn structure_values(time: f64, s: &StructureSample) -> [f64; 18] {
-    [
-        time,
-        s.contact.normal,
-        s.contact.tangential,
-        s.clamp.normal,
-        s.clamp.tangential,
-        s.clamp_moment,
-        s.inertia.normal,
-        s.inertia.tangential,
-        s.imbalance,
-        s.bend.tip,
-        s.bend.tip_velocity,
-        s.bend.largest,
-        s.bend.largest_at,
-        s.survey.penetration,
-        s.bend.gap,
-        s.bend.gap_at,
-        s.survey.run_up,
-        s.survey.overtopped,
-    ]
 }
 
 /// Momentum by agent at one moment, N s.
@@ -211,6 +113,11 @@ pub trait Recorder {
     fn field(&mut self, _time: f64, _cells: &[FieldCell]) -> Result<(), OutputError> {
         Ok(())
     }
+    /// Who records what is read at a barrier that is not the first, by its number without that: histories of forces alone, profiles,
+    /// structure, bending, outline.
+    fn further(&mut self, _barrier: usize) -> Option<&mut dyn Recorder> {
+        None
+    }
     /// Called after every step after release.
     fn step(&mut self, _simulation: &Simulation) -> Result<(), OutputError> {
         Ok(())
@@ -232,6 +139,8 @@ pub struct Records {
     pub momentum: Vec<MomentumRow>,
     /// Samples of a barrier that is a body, with their times (s).
     pub structure: Vec<(f64, StructureSample)>,
+    /// History and structure of the barriers but the first.
+    pub further: Vec<Records>,
 }
 
 impl Recorder for Records {
@@ -253,5 +162,12 @@ impl Recorder for Records {
     fn structure(&mut self, time: f64, sample: &StructureSample) -> Result<(), OutputError> {
         self.structure.push((time, *sample));
         Ok(())
+    }
+
+    fn further(&mut self, barrier: usize) -> Option<&mut dyn Recorder> {
+        if self.further.len() <= barrier {
+            self.further.resize_with(barrier + 1, Records::default);
+        }
+        Some(&mut self.further[barrier])
     }
 }

@@ -1,8 +1,8 @@
 //! What a run says of a barrier that is a body.
 
-use super::experiment::Experiment;
+use super::gauges::Barrier;
 use super::means::{archived_peak, arrival};
-use super::records::Records;
+use super::records::{EnergyRow, Records};
 use crate::gauge::StructureSample;
 use crate::ledger::EnergyBalance;
 use serde::Serialize;
@@ -67,8 +67,9 @@ pub struct StructureResults {
     pub torn: bool,
 }
 
-pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<StructureResults> {
-    let gauge = experiment.structure()?;
+/// Of a barrier with its own records and the energies of the run; `None` if it is not a body, or without a sample.
+pub(super) fn results(barrier: &Barrier, records: &Records, energy: &[EnergyRow]) -> Option<StructureResults> {
+    let gauge = barrier.structure()?;
     let samples = &records.structure;
     let end = samples.last()?.0;
     let mean = |value: fn(&StructureSample) -> f64| {
@@ -77,14 +78,14 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Stru
         sum / count
     };
     let largest = |value: fn(&StructureSample) -> f64| samples.iter().map(|(_, s)| value(s)).fold(0.0, f64::max);
-    let peak = &experiment.peak_profile().points;
+    let peak = &barrier.peak_profile().points;
     let bent = peak.iter().fold((0.0, 0.0), |a, p| if p.deflection > a.0 { (p.deflection, p.height) } else { a });
     let widest = samples.iter().fold(&samples[0], |a, b| if b.1.bend.gap > a.1.bend.gap { b } else { a });
     let clamp = gauge.peak_clamp_force();
     let tip = mean(|s| s.bend.tip);
     let height = gauge.face().height();
     let arrival = arrival(&records.history);
-    let arrived = records.energy.iter().find(|r| arrival.is_some_and(|t| r.time >= t)).map(|r| r.balance.clone());
+    let arrived = energy.iter().find(|r| arrival.is_some_and(|t| r.time >= t)).map(|r| r.balance.clone());
     let share = |value: fn(&EnergyBalance) -> f64| arrived.as_ref().map_or(f64::NAN, |b| value(b) / b.initial);
     Some(StructureResults {
         height_m: height,
@@ -120,17 +121,18 @@ fn imbalance(samples: &[(f64, StructureSample)]) -> f64 {
 }
 
 impl StructureResults {
-    pub(super) fn warn(&self, warn: &mut impl FnMut(String)) {
+    /// Warns of what is odd about the barrier called `name`.
+    pub(super) fn warn(&self, name: &str, warn: &mut impl FnMut(String)) {
         if self.torn {
             warn(format!(
-                "the barrier has torn numerically: {:.3} s after release its points were {:.2} cells too far apart {:.3} m above \
+                "{name} has torn numerically: {:.3} s after release its points were {:.2} cells too far apart {:.3} m above \
                  its foot; forces and deflections after that mean nothing (finer cells, or a stiffer barrier)",
                 self.gap_max_time_s, self.gap_max_cells, self.gap_max_height_m
             ));
         }
         if self.imbalance_max > BALANCED {
             warn(format!(
-                "contact, clamp and inertia of the barrier miss each other by {:.1e} of their sum",
+                "contact, clamp and inertia of {name} miss each other by {:.1e} of their sum",
                 self.imbalance_max
             ));
         }

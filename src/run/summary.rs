@@ -1,15 +1,14 @@
 //! What a run says: inputs resolved, results, ledgers, warnings.
 
+use super::barrier;
+pub use super::barrier::BarrierResults;
 use super::experiment::{End, Experiment};
-use super::means::{STATIC_WINDOW, arrival, impulse, late_mean, smoothed_peak, time_to_static};
+use super::means::{STATIC_WINDOW, arrival, late_mean};
 use super::records::{HistoryRow, MomentumRow, Records};
 use super::structure::{self, StructureResults};
 use crate::boundary::Friction;
 use crate::case::Case;
 use serde::Serialize;
-
-/// Time after arrival over which the impulse of the impact is taken, s.
-const IMPACT_WINDOW: f64 = 0.5;
 
 /// Everything worth knowing about a run; written as `summary.toml`.
 #[derive(Debug, Clone, Serialize)]
@@ -28,6 +27,9 @@ pub struct Summary {
     /// How a barrier that is a body took it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub structure: Option<StructureResults>,
+    /// The barriers after the first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub further_barriers: Vec<FurtherBarrier>,
     /// Equilibrium of the deposit at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deposit: Option<DepositResults>,
@@ -69,48 +71,17 @@ pub struct Stepping {
     pub contact_sweeps_max: Option<usize>,
 }
 
-/// Forces on the barrier.
+/// A barrier that is not the first.
 #[derive(Debug, Clone, Serialize)]
-pub struct BarrierResults {
-    /// First time at which the normal force exceeds 0.5 N, s; absent if the flow did not arrive.
+pub struct FurtherBarrier {
+    /// Its name in the case.
+    pub name: String,
+    /// Forces on it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub arrival_time_s: Option<f64>,
-    /// Largest normal force of a single step, N.
-    pub peak_force_step_n: f64,
-    /// Its time, s.
-    pub peak_force_step_time_s: f64,
-    /// Largest mean normal force over 20 ms, N.
-    pub peak_force_20ms_n: f64,
-    /// Middle of that interval, s.
-    pub peak_force_20ms_time_s: f64,
-    /// Mean normal force over the last 0.3 s, N.
-    pub static_force_n: f64,
-    /// Mean force along the barrier's face over the last 0.3 s, N; negative when the material drags it down.
-    pub static_shear_n: f64,
-    /// Change of the normal force from the first to the last third of these 0.3 s, N.
-    pub static_force_drift_n: f64,
-    /// The same force from the stress of the nearest 1, 2, 3 layers of material points, N.
-    pub static_force_layers_n: [f64; 3],
-    /// Base shear at the foot: the static normal force, N.
-    pub base_shear_n: f64,
-    /// Mean overturning moment about the foot over the last 0.3 s, N m.
-    pub static_moment_n_m: f64,
-    /// Height above the foot at which the static force acts, m.
-    pub static_height_of_action_m: f64,
-    /// Largest overturning moment of a single step, N m.
-    pub peak_moment_step_n_m: f64,
-    /// When the mean over 20 ms comes within 5 % of the static force to stay there, s after release.
-    pub time_to_static_s: f64,
-    /// Impulse of the normal force in the first 0.5 s after arrival, N s.
-    pub impulse_half_second_n_s: f64,
-    /// Impulse of the normal force, N s.
-    pub impulse_normal_n_s: f64,
-    /// Impulse of the force along the face, N s.
-    pub impulse_tangential_n_s: f64,
-    /// Highest material at the barrier at any time, m above its foot.
-    pub run_up_m: f64,
-    /// Mass that went over the barrier, kg.
-    pub overtopped_kg: f64,
+    pub barrier: Option<BarrierResults>,
+    /// How it took it, if it is a body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub structure: Option<StructureResults>,
 }
 
 /// Equilibrium along the flume at the end: weight, base friction, barrier.
@@ -223,8 +194,9 @@ impl Summary {
             checkdam_version: env!("CARGO_PKG_VERSION").into(),
             warnings: Vec::new(),
             stepping: stepping(experiment),
-            barrier: barrier(experiment, records),
-            structure: structure::results(experiment, records),
+            barrier: experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history)),
+            structure: experiment.barriers().first().and_then(|b| structure::results(b, records, &records.energy)),
+            further_barriers: further_barriers(experiment, records),
             deposit: deposit(experiment, records),
             energy: energy(records),
             momentum: momentum(records),
@@ -265,12 +237,7 @@ impl Summary {
             warn(format!("{:.4} kg left the domain", self.momentum.outflow_kg));
         }
         if let Some(b) = &self.barrier {
-            if b.overtopped_kg > 0.0 {
-                warn(format!("{:.4} kg went over the barrier", b.overtopped_kg));
-            }
-            if b.arrival_time_s.is_none() {
-                warn("the flow did not reach the barrier".into());
-            }
+            b.warn("the barrier", &mut warn);
         }
         if let Some([most, allowed]) = sim.contact_sweeps()
             && most >= allowed
@@ -278,7 +245,12 @@ impl Summary {
             warn(format!("contact with a body in implicit steps was not settled after {allowed} sweeps of a step"));
         }
         if let Some(s) = &self.structure {
-            s.warn(&mut warn);
+            s.warn("the barrier", &mut warn);
+        }
+        for further in &self.further_barriers {
+            let name = format!("barrier `{}`", further.name);
+            further.barrier.iter().for_each(|b| b.warn(&name, &mut warn));
+            further.structure.iter().for_each(|s| s.warn(&name, &mut warn));
         }
         if let Some(d) = &self.deposit
             && d.mobilised_share.abs() < 0.9
@@ -312,37 +284,14 @@ fn stepping(experiment: &Experiment) -> Stepping {
     }
 }
 
-fn barrier(experiment: &Experiment, records: &Records) -> Option<BarrierResults> {
-    let gauge = experiment.barrier()?;
-    let history = &records.history;
-    let last = history.last()?;
-    let late = |value: fn(&HistoryRow) -> f64| late_mean(history, 0.0, 1.0, value);
-    let static_force = late(|r| r.normal);
-    let static_moment = late(|r| r.moment);
-    let peak = smoothed_peak(history);
-    let arrival = arrival(history);
-    Some(BarrierResults {
-        arrival_time_s: arrival,
-        peak_force_step_n: gauge.peak_force().value,
-        peak_force_step_time_s: gauge.peak_force().time,
-        peak_force_20ms_n: peak.0,
-        peak_force_20ms_time_s: peak.1,
-        static_force_n: static_force,
-        static_shear_n: late(|r| r.tangential),
-        static_force_drift_n: late_mean(history, 2.0 / 3.0, 1.0, |r| r.normal)
-            - late_mean(history, 0.0, 1.0 / 3.0, |r| r.normal),
-        static_force_layers_n: [late(|r| r.layers[0]), late(|r| r.layers[1]), late(|r| r.layers[2])],
-        base_shear_n: static_force,
-        static_moment_n_m: static_moment,
-        static_height_of_action_m: if static_force > 0.0 { static_moment / static_force } else { 0.0 },
-        peak_moment_step_n_m: gauge.peak_moment().value,
-        time_to_static_s: time_to_static(history, static_force),
-        impulse_half_second_n_s: arrival.map_or(0.0, |t| impulse(history, t, t + IMPACT_WINDOW)),
-        impulse_normal_n_s: gauge.total_impulse()[0],
-        impulse_tangential_n_s: gauge.total_impulse()[1],
-        run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
-        overtopped_kg: last.overtopped,
-    })
+fn further_barriers(experiment: &Experiment, records: &Records) -> Vec<FurtherBarrier> {
+    let with_records = experiment.barriers().iter().skip(1).zip(&records.further);
+    let results = with_records.map(|(b, own)| FurtherBarrier {
+        name: b.name().into(),
+        barrier: barrier::results(b.force(), &own.history),
+        structure: structure::results(b, own, &records.energy),
+    });
+    results.collect()
 }
 
 fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults> {
@@ -354,13 +303,10 @@ fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults>
     let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
     let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
     // What lies behind the barrier rests on the base, too, but does not push.
-    let mass = match experiment.barrier()?.boundary() {
-        Some(barrier) => sim.mass() - (last.overtopped - sim.ledger().departed_behind[barrier]),
-        None => {
-            let body = experiment.structure()?.body();
-            sim.mass() - sim.stock_of(|b| b == body).mass - (last.overtopped - sim.ledger().departed_mass)
-        }
-    };
+    let structures = experiment.structures();
+    let barrier = experiment.barrier()?.boundary();
+    let departed = barrier.map_or(sim.ledger().departed_mass, |b| sim.ledger().departed_behind[b]);
+    let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - (last.overtopped - departed);
     let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
     let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
     let weight = mass * along;
@@ -370,13 +316,12 @@ fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults>
     let end = records.momentum.last()?;
     let start = records.momentum.iter().find(|r| r.time >= end.time - STATIC_WINDOW)?;
     let base_index = experiment.base()?;
-    let structure = experiment.structure().map(crate::gauge::StructureGauge::body);
-    let own = |b: usize| b == base_index || structure.is_some_and(|s| sim.boundaries()[b].bodies == [s]);
+    let own = |b: usize| b == base_index || structures.iter().any(|s| sim.boundaries()[b].bodies == [*s]);
     let push = |row: &MomentumRow| -> f64 {
         let along = |p: [f64; 2]| p[0] * base.tangent.x + p[1] * base.tangent.y;
         let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| !own(*b));
         let contacts = row.ledger.contacts.iter().zip(sim.contacts()).map(|(tally, rule)| {
-            let sign = rule.bodies.map(|b| f64::from(u8::from(Some(b) == structure)));
+            let sign = rule.bodies.map(|b| f64::from(u8::from(structures.contains(&b))));
             (sign[0] - sign[1]) * along(tally.exchange.impulse)
         });
         others.map(|(_, t)| along(t.impulse)).sum::<f64>() + contacts.sum::<f64>()

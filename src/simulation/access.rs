@@ -3,7 +3,7 @@
 use super::field::VelocityField;
 use super::{AccelerationField, ContactPoint, PicShare, Simulation, potential};
 use crate::band::{Band, Workspace};
-use crate::body::{Body, Particle};
+use crate::body::{Block, Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
 use crate::constitutive::Law;
@@ -116,6 +116,12 @@ impl Simulation {
         self.fields.iter().flat_map(VelocityField::particles)
     }
 
+    /// The same points block by block, for those who read two of their numbers and not all: body index, block, number of real
+    /// points.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, &Block, usize)> {
+        self.fields.iter().flat_map(VelocityField::blocks)
+    }
+
     /// The points of one body, by its index, in a fixed order that changes with sorting.
     pub fn points_of(&self, body: usize) -> impl Iterator<Item = Particle> {
         let fields = self.fields.iter().filter(move |f| f.members.contains(&body));
@@ -226,7 +232,7 @@ impl Simulation {
     /// What some bodies, chosen by index, hold now.
     pub fn stock_of(&self, chosen: impl Fn(usize) -> bool) -> Stock {
         let mut s = Stock::default();
-        for (body, p) in self.particles().filter(|(body, _)| chosen(*body)) {
+        self.particles().filter(|(body, _)| chosen(*body)).for_each(|(body, p)| {
             let body = &self.bodies[body];
             let m = body.point_mass;
             let heavy = if body.weightless { 0.0 } else { m };
@@ -236,7 +242,7 @@ impl Simulation {
             s.kinetic += 0.5 * m * dot(p.v, p.v);
             s.gravitational += heavy * potential(self.forces.gravity, p.x);
             s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
-        }
+        });
         s
     }
 

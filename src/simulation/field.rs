@@ -1,7 +1,7 @@
 //! Bodies that move as one on the grid: their points, and the nodes they reach.
 
 use crate::band::Band;
-use crate::body::{Body, Particle, Points};
+use crate::body::{Block, Body, Particle, Points};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Hold};
 use crate::grid::ActiveGrid;
@@ -68,6 +68,14 @@ impl VelocityField {
     pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
         self.bands.iter().flat_map(|band| {
             self.members.iter().zip(&band.points).flat_map(|(&body, points)| points.iter().map(move |p| (body, p)))
+        })
+    }
+
+    /// The blocks of points in the order of [`Self::particles`]: index of the body in the simulation, block, number of real points.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, &Block, usize)> {
+        self.bands.iter().flat_map(|band| {
+            let bodies = self.members.iter().zip(&band.points);
+            bodies.flat_map(|(&body, points)| points.blocks().map(move |(block, n)| (body, block, n)))
         })
     }
 }

@@ -1,7 +1,9 @@
 //! The study file.
 
 use super::change::Change;
+use super::quantities::QUANTITIES;
 use super::sampling::MOST_DIMENSIONS;
+use crate::case::did_you_mean;
 use serde::Deserialize;
 use std::path::Path;
 use toml::Value;
@@ -317,6 +319,16 @@ impl Study {
         let names: Vec<&str> = self.columns();
         if let Some(k) = (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
             return say(&format!("`{}` is the name of two things that vary", names[k]), "give each its own name");
+        }
+        if let Some(figure) = &self.figure {
+            // Every other column of the table is text.
+            let numbers = || names.iter().copied().chain(QUANTITIES.iter().map(|q| q.name));
+            for (key, column) in [("x", &figure.x), ("y", &figure.y)] {
+                if !numbers().any(|name| name == column) {
+                    let what = format!("figure.{key} = \"{column}\" is neither an axis of the study nor a quantity");
+                    return say(&what, &did_you_mean(column, numbers().collect::<Vec<_>>()));
+                }
+            }
         }
         if let Some(sample) = &self.sample {
             let dimensions = sample.ranges.len() + sample.choices.len();

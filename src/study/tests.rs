@@ -159,6 +159,8 @@ fn what_is_wrong_is_named() {
         ("values = [1.0e5, 2.0e5]", "values = [-1.0e5]", "young_pa = -100000.0 is not allowed"),
         ("factor =", "fctor =", "fctor"),
         ("title = ", "titel = ", "titel"),
+        ("[base.set]", "[figure]\nx = \"young_p\"\ny = \"run_up_m\"\n[base.set]", "did you mean `young_pa`?"),
+        ("[base.set]", "[figure]\nx = \"young_pa\"\ny = \"peak_20ms\"\n[base.set]", "did you mean `peak_20ms_n`?"),
     ] {
         let text = STUDY.replacen(from, to, 1);
         let Err(error) = planned(&text) else { panic!("{to} is accepted") };

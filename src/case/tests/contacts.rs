@@ -119,6 +119,44 @@ fn a_barrier_may_be_a_body_in_a_contact() {
 }
 
 #[test]
+fn several_barriers_are_a_list() {
+    let gauge = |line: &str| {
+        let text = with(CONTACT);
+        let from = text.find("barrier = \"barrier\"").expect("a gauge");
+        let (before, after) = text.split_at(from);
+        format!("{before}{}", after.replacen("barrier = \"barrier\"", line, 1))
+    };
+    let loaded = parse(&gauge("barriers = [\"barrier\", \"fence\"]"), "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(loaded.case.gauges.barrier_names().collect::<Vec<_>>(), ["barrier", "fence"]);
+    // One barrier is written as it always was.
+    let one = parse(&gauge("barrier = \"fence\""), "fence.toml").unwrap_or_else(|e| panic!("{e}")).case;
+    assert!(!one.to_toml().expect("TOML").contains("barriers"));
+    for (line, parts) in [
+        ("barriers = [\"barrier\", \"fense\"]", vec!["gauges.barriers[1] = \"fense\"", "did you mean `fence`?"]),
+        ("barriers = [\"barrier\", \"barrier\"]", vec!["gauges.barriers[1] = \"barrier\"", "remove one of them"]),
+        (
+            "barrier = \"fence\"\nbarriers = [\"barrier\"]",
+            vec!["gauges.barrier and gauges.barriers are both given", "write barriers = [\"fence\", \"barrier\"]"],
+        ),
+    ] {
+        let text = gauge(line);
+        let report = report_of(&text);
+        let place = 1 + text[..text.find("barriers = ").expect("a line")].matches('\n').count();
+        assert!(report.contains(&format!(".toml:{place}:")), "not line {place} in\n{report}");
+        for part in parts {
+            assert!(report.contains(part), "no {part:?} in\n{report}");
+        }
+    }
+    let text = gauge("barriers = [\"fence\", \"back wall\", \"back_wall\"]")
+        .replace("name = \"gate\"", "name = \"back_wall\"");
+    let report = report_of(&text);
+    assert!(report.contains("gauges.barriers[2] = \"back_wall\"") && report.contains("rename one"), "{report}");
+    let text =
+        gauge("barriers = [\"fence\", \"Profile of it\"]").replace("name = \"gate\"", "name = \"Profile of it\"");
+    assert!(report_of(&text).contains("begins with neither `profile` nor `outline`"));
+}
+
+#[test]
 fn side_walls_touch_the_bodies_that_are_named() {
     let walls = |names: &str| {
         let text = with(CONTACT);

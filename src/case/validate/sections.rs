@@ -1,6 +1,7 @@
 //! Gravity, grid, domain, side walls, stages, gauges, output and numerical settings.
 
 use super::{Checker, text};
+use crate::case::file_name;
 use crate::case::path::KeyPath;
 use crate::case::suggest::did_you_mean;
 
@@ -88,31 +89,11 @@ impl Checker<'_> {
     fn gauges(&mut self) {
         let (gauges, domain) = (&self.case.gauges, &self.case.domain);
         let at = KeyPath::top("gauges");
+        self.barriers(&at);
         let boundaries = || self.case.boundaries.iter().map(|boundary| boundary.name.as_str());
-        let bodies = || self.case.bodies.iter().map(|body| body.name.as_str());
-        let mut wrong = Vec::new();
-        if let Some(name) = &gauges.base
-            && !boundaries().any(|other| other == name)
-        {
-            wrong.push(("base", name, "the name of one of [[boundaries]]", did_you_mean(name, boundaries())));
-        }
-        if let Some(name) = &gauges.barrier {
-            let (rigid, body) = (boundaries().any(|b| b == name), bodies().any(|b| b == name));
-            let allowed = "the name of one of [[boundaries]], or of a body in [[contacts]]";
-            if !rigid && !body {
-                let fix = did_you_mean(name, boundaries().chain(bodies()));
-                wrong.push(("barrier", name, allowed, fix));
-            } else if rigid && body {
-                let fix = "rename the boundary or the body: both have this name".to_owned();
-                wrong.push(("barrier", name, allowed, fix));
-            } else if body && !self.case.contacts.iter().any(|c| c.bodies.contains(name)) {
-                let fix =
-                    format!("add [[contacts]] with `{name}`: what sticks to other bodies has no force to measure");
-                wrong.push(("barrier", name, allowed, fix));
-            }
-        }
-        for (key, name, allowed, fix) in wrong {
-            self.not_allowed(&at.key(key), name, allowed, &fix);
+        if let Some(name) = gauges.base.as_ref().filter(|name| !boundaries().any(|other| other == *name)) {
+            let fix = did_you_mean(name, boundaries());
+            self.not_allowed(&at.key("base"), name, "the name of one of [[boundaries]]", &fix);
         }
         self.positive(&at.key("sample_rate_hz"), gauges.sample_rate_hz, 1000.0);
         for (index, &station) in gauges.stations_m.iter().enumerate() {
@@ -131,6 +112,53 @@ impl Checker<'_> {
             }
         }
         self.field_times();
+    }
+
+    /// The barriers whose force is measured: each is one thing, and has files of its own.
+    fn barriers(&mut self, at: &KeyPath) {
+        let gauges = &self.case.gauges;
+        if let Some(name) = &gauges.barrier {
+            self.barrier(&at.key("barrier"), name);
+            if !gauges.barriers.is_empty() {
+                let what = "gauges.barrier and gauges.barriers are both given".to_owned();
+                let all: Vec<String> = gauges.barrier_names().map(|name| format!("{name:?}")).collect();
+                let fix = format!("remove barrier, and write barriers = [{}]", all.join(", "));
+                self.problem(&at.key("barriers"), what, &gauges.barriers, "one of the two", &fix);
+            }
+        }
+        let list = at.key("barriers");
+        for (index, name) in gauges.barriers.iter().enumerate() {
+            let path = list.index(index);
+            self.barrier(&path, name);
+            let file = file_name(name);
+            if let Some(first) = gauges.barriers[..index].iter().position(|other| file_name(other) == file) {
+                let (allowed, fix) = if gauges.barriers[first] == *name {
+                    ("every barrier once", "remove one of them")
+                } else {
+                    ("names whose letters and digits differ: files are called by them", "rename one of the two")
+                };
+                self.not_allowed(&path, name, allowed, fix);
+            } else if index > 0 && ["profile", "outline"].iter().any(|word| file.starts_with(word)) {
+                let allowed = "a name that begins with neither `profile` nor `outline`, as files of other barriers do";
+                self.not_allowed(&path, name, allowed, "rename it, or let it be the first");
+            }
+        }
+    }
+
+    fn barrier(&mut self, path: &KeyPath, name: &str) {
+        let boundaries = || self.case.boundaries.iter().map(|boundary| boundary.name.as_str());
+        let bodies = || self.case.bodies.iter().map(|body| body.name.as_str());
+        let (rigid, body) = (boundaries().any(|b| b == name), bodies().any(|b| b == name));
+        let in_contact = self.case.contacts.iter().any(|c| c.bodies.iter().any(|b| b == name));
+        let fix = match (rigid, body) {
+            (false, false) => did_you_mean(name, boundaries().chain(bodies())),
+            (true, true) => "rename the boundary or the body: both have this name".to_owned(),
+            (false, true) if !in_contact => {
+                format!("add [[contacts]] with `{name}`: what sticks to other bodies has no force to measure")
+            }
+            _ => return,
+        };
+        self.not_allowed(path, &name, "the name of one of [[boundaries]], or of a body in [[contacts]]", &fix);
     }
 
     fn field_times(&mut self) {

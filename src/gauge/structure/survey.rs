@@ -2,7 +2,8 @@
 
 use super::StructureGauge;
 use crate::contact::outline::Nearest;
-use crate::gauge::flow::flowing;
+use crate::gauge::beside::beside;
+use crate::gauge::flow::flowing_blocks;
 use crate::gauge::layers::{self, LAYERS, Near};
 use crate::simulation::Simulation;
 use nalgebra::Vector2;
@@ -34,14 +35,16 @@ impl StructureGauge {
         }
         let mut found = Survey { overtopped: simulation.ledger().departed_mass, ..Survey::default() };
         let mut near = Vec::new();
-        for (index, p) in flowing(simulation, Some(self.body)) {
-            let (d, s) = self.face.face_coordinates(p.x);
-            let body = &simulation.bodies()[index];
+        let [least, most] = bounds[0];
+        for point in beside(&self.face, most.max(least), flowing_blocks(simulation, &[self.body])) {
+            let x = point.x();
+            let (d, s) = self.face.face_coordinates(x);
+            let body = &simulation.bodies()[point.body];
             if d < bounds[0][0] {
                 found.overtopped += body.point_mass;
             }
-            let beside = d >= bounds[0][0] && d <= bounds[0][1] && s >= bounds[1][0] && s <= bounds[1][1];
-            let Some(to) = beside.then(|| self.nearest(p.x)).flatten() else { continue };
+            let inside = d >= bounds[0][0] && d <= bounds[0][1] && s >= bounds[1][0] && s <= bounds[1][1];
+            let Some(to) = inside.then(|| self.nearest(x)).flatten() else { continue };
             let out = Vector2::from(to.normal);
             found.penetration = found.penetration.max(0.5 * body.point_spacing - to.distance);
             if out.dot(&n) < -0.5 {
@@ -55,6 +58,7 @@ impl StructureGauge {
             if at < 0.0 || out.dot(&n) < 0.5 || to.distance < -h || to.distance > reach {
                 continue;
             }
+            let p = point.block.get(point.lane, 0);
             let t = &p.state.stress;
             let traction = Vector2::new(t.xx * out.x + t.xy * out.y, t.xy * out.x + t.yy * out.y);
             near.push(Near {

@@ -58,7 +58,7 @@ fn see(release: &str, look: &Look, words: &mut WordsFn) -> Result<Seen, Failure>
         arrival,
         rows,
         thresholds,
-        peak: experiment.peak_profile().points.clone(),
+        peak: experiment.barriers().first().map_or_else(Vec::new, |b| b.peak_profile().points.clone()),
         face,
         thickness: case.grid.thickness_m,
         spacing: case.grid.spacing_m,

@@ -1,0 +1,97 @@
+//! What a run says of the force on a barrier.
+
+use super::means::{arrival, impulse, late_mean, smoothed_peak, time_to_static};
+use super::records::HistoryRow;
+use crate::gauge::BarrierGauge;
+use serde::Serialize;
+
+/// Time after arrival over which the impulse of the impact is taken, s.
+const IMPACT_WINDOW: f64 = 0.5;
+
+/// Forces on the barrier.
+#[derive(Debug, Clone, Serialize)]
+pub struct BarrierResults {
+    /// First time at which the normal force exceeds 0.5 N, s; absent if the flow did not arrive.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arrival_time_s: Option<f64>,
+    /// Largest normal force of a single step, N.
+    pub peak_force_step_n: f64,
+    /// Its time, s.
+    pub peak_force_step_time_s: f64,
+    /// Largest mean normal force over 20 ms, N.
+    pub peak_force_20ms_n: f64,
+    /// Middle of that interval, s.
+    pub peak_force_20ms_time_s: f64,
+    /// Mean normal force over the last 0.3 s, N.
+    pub static_force_n: f64,
+    /// Mean force along the barrier's face over the last 0.3 s, N; negative when the material drags it down.
+    pub static_shear_n: f64,
+    /// Change of the normal force from the first to the last third of these 0.3 s, N.
+    pub static_force_drift_n: f64,
+    /// The same force from the stress of the nearest 1, 2, 3 layers of material points, N.
+    pub static_force_layers_n: [f64; 3],
+    /// Base shear at the foot: the static normal force, N.
+    pub base_shear_n: f64,
+    /// Mean overturning moment about the foot over the last 0.3 s, N m.
+    pub static_moment_n_m: f64,
+    /// Height above the foot at which the static force acts, m.
+    pub static_height_of_action_m: f64,
+    /// Largest overturning moment of a single step, N m.
+    pub peak_moment_step_n_m: f64,
+    /// When the mean over 20 ms comes within 5 % of the static force to stay there, s after release.
+    pub time_to_static_s: f64,
+    /// Impulse of the normal force in the first 0.5 s after arrival, N s.
+    pub impulse_half_second_n_s: f64,
+    /// Impulse of the normal force, N s.
+    pub impulse_normal_n_s: f64,
+    /// Impulse of the force along the face, N s.
+    pub impulse_tangential_n_s: f64,
+    /// Highest material at the barrier at any time, m above its foot.
+    pub run_up_m: f64,
+    /// Mass that went over the barrier, kg.
+    pub overtopped_kg: f64,
+}
+
+/// Of the history of a barrier, `None` without a sample.
+pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow]) -> Option<BarrierResults> {
+    let last = history.last()?;
+    let late = |value: fn(&HistoryRow) -> f64| late_mean(history, 0.0, 1.0, value);
+    let static_force = late(|r| r.normal);
+    let static_moment = late(|r| r.moment);
+    let peak = smoothed_peak(history);
+    let arrival = arrival(history);
+    Some(BarrierResults {
+        arrival_time_s: arrival,
+        peak_force_step_n: gauge.peak_force().value,
+        peak_force_step_time_s: gauge.peak_force().time,
+        peak_force_20ms_n: peak.0,
+        peak_force_20ms_time_s: peak.1,
+        static_force_n: static_force,
+        static_shear_n: late(|r| r.tangential),
+        static_force_drift_n: late_mean(history, 2.0 / 3.0, 1.0, |r| r.normal)
+            - late_mean(history, 0.0, 1.0 / 3.0, |r| r.normal),
+        static_force_layers_n: [late(|r| r.layers[0]), late(|r| r.layers[1]), late(|r| r.layers[2])],
+        base_shear_n: static_force,
+        static_moment_n_m: static_moment,
+        static_height_of_action_m: if static_force > 0.0 { static_moment / static_force } else { 0.0 },
+        peak_moment_step_n_m: gauge.peak_moment().value,
+        time_to_static_s: time_to_static(history, static_force),
+        impulse_half_second_n_s: arrival.map_or(0.0, |t| impulse(history, t, t + IMPACT_WINDOW)),
+        impulse_normal_n_s: gauge.total_impulse()[0],
+        impulse_tangential_n_s: gauge.total_impulse()[1],
+        run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
+        overtopped_kg: last.overtopped,
+    })
+}
+
+impl BarrierResults {
+    /// Warns of what is odd about the barrier called `name`.
+    pub(super) fn warn(&self, name: &str, warn: &mut impl FnMut(String)) {
+        if self.overtopped_kg > 0.0 {
+            warn(format!("{:.4} kg went over {name}", self.overtopped_kg));
+        }
+        if self.arrival_time_s.is_none() {
+            warn(format!("the flow did not reach {name}"));
+        }
+    }
+}

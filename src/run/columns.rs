@@ -1,0 +1,444 @@
+//! The tables of a run: name, unit, meaning and value of every column. A new column is one line here.
+
+use super::records::{EnergyRow, HistoryRow, MomentumRow};
+use crate::gauge::StructureSample;
+use crate::gauge::flow::FieldCell;
+use crate::gauge::structure::ProfilePoint;
+use crate::output::{OutputError, TableWriter};
+use std::path::Path;
+
+/// A column of a table whose rows are made of `R`.
+pub struct Column<R: 'static> {
+    /// Name in the header; ends in the unit. `{boundary}` and `{surface}` stand for a name, see [`Per`].
+    pub name: &'static str,
+    /// Unit; "1" for a share or a ratio.
+    pub unit: &'static str,
+    /// What the number is.
+    pub meaning: &'static str,
+    /// The number, of the boundary or surface with this index where there is one column for each.
+    value: fn(&R, usize) -> f64,
+}
+
+/// How often some columns stand in a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Per {
+    /// Once.
+    Table,
+    /// Once for each boundary, whose name replaces `{boundary}`.
+    Boundary,
+    /// Once for each boundary, then for each contact of two bodies, `A_on_B`; its name replaces `{surface}`.
+    Surface,
+}
+
+/// Columns that follow each other.
+struct Group<R: 'static>(Per, &'static [Column<R>]);
+
+/// A kind of table.
+pub struct TableKind<R: 'static> {
+    /// Name of the file.
+    pub file: &'static str,
+    /// What a row is.
+    pub row: &'static str,
+    groups: &'static [Group<R>],
+}
+
+/// Names that stand in columns of which there is one for each.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Names {
+    /// Of the boundaries.
+    pub boundaries: Vec<String>,
+    /// Of the boundaries and of the contacts of two bodies.
+    pub surfaces: Vec<String>,
+}
+
+impl Names {
+    /// Names for columns that stand so often, and what they replace.
+    fn of(&self, per: Per) -> (&str, &[String]) {
+        match per {
+            Per::Table => ("", const { &[String::new()] }),
+            Per::Boundary => ("{boundary}", &self.boundaries),
+            Per::Surface => ("{surface}", &self.surfaces),
+        }
+    }
+}
+
+impl<R> TableKind<R> {
+    fn header(&self, names: &Names) -> Vec<String> {
+        let mut header = Vec::new();
+        for Group(per, columns) in self.groups {
+            let (place, names) = names.of(*per);
+            for name in names {
+                let own = |c: &Column<R>| if place.is_empty() { c.name.into() } else { c.name.replace(place, name) };
+                header.extend(columns.iter().map(own));
+            }
+        }
+        header
+    }
+
+    fn values(&self, names: &Names, row: &R, values: &mut Vec<f64>) {
+        values.clear();
+        for Group(per, columns) in self.groups {
+            for k in 0..names.of(*per).1.len() {
+                values.extend(columns.iter().map(|c| (c.value)(row, k)));
+            }
+        }
+    }
+
+    fn describe(&self) -> TableText {
+        let columns = self.groups.iter().flat_map(|g| g.1);
+        let columns = columns.map(|c| ColumnText { name: c.name, unit: c.unit, meaning: c.meaning }).collect();
+        TableText { file: self.file, row: self.row, columns }
+    }
+}
+
+/// A table on disk that grows row by row.
+#[derive(Debug)]
+pub(super) struct OpenTable<R: 'static> {
+    kind: &'static TableKind<R>,
+    names: Names,
+    writer: TableWriter,
+    values: Vec<f64>,
+}
+
+impl<R> OpenTable<R> {
+    /// Creates the file with its header.
+    pub fn create(kind: &'static TableKind<R>, path: &Path, names: Names) -> Result<Self, OutputError> {
+        let writer = TableWriter::create(path, &kind.header(&names))?;
+        Ok(Self { kind, names, writer, values: Vec::new() })
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, row: &R) -> Result<(), OutputError> {
+        self.kind.values(&self.names, row, &mut self.values);
+        self.writer.row(&self.values)
+    }
+
+    /// Hands all rows to the file.
+    pub fn flush(&mut self) -> Result<(), OutputError> {
+        self.writer.flush()
+    }
+
+    /// Writes what is left and closes the file.
+    pub fn finish(self) -> Result<(), OutputError> {
+        self.writer.finish().map(|_| ())
+    }
+}
+
+impl<R> std::fmt::Debug for TableKind<R> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.file)
+    }
+}
+
+/// What a table of a run holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableText {
+    /// Name of the file. Of a barrier that is not the first its name follows: `history_NAME.csv`.
+    pub file: &'static str,
+    /// What a row is.
+    pub row: &'static str,
+    /// Its columns in order.
+    pub columns: Vec<ColumnText>,
+}
+
+/// What a column of a table holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ColumnText {
+    /// Name in the header. Columns with `{boundary}` in it stand there once for each boundary, those with `{surface}` once for each
+    /// boundary and then for each contact of two bodies (`A_on_B`), with its name in lower case and `_` for what is neither letter
+    /// nor digit.
+    pub name: &'static str,
+    /// Unit; "1" for a share or a ratio, "-" for a number that counts.
+    pub unit: &'static str,
+    /// What the number is.
+    pub meaning: &'static str,
+}
+
+/// All tables of a run with all their columns.
+pub fn columns() -> Vec<TableText> {
+    vec![
+        HISTORY.describe(),
+        ENERGY.describe(),
+        MOMENTUM.describe(),
+        STATIONS.describe(),
+        PRESSURE.describe(),
+        STRUCTURE.describe(),
+        BENDING.describe(),
+        BENDING_AT_PEAK.describe(),
+        OUTLINE.describe(),
+        FIELD.describe(),
+        GEOMETRY.describe(),
+        FURTHER.describe(),
+    ]
+}
+
+/// Columns of rows of a type, in order: name, unit, meaning, value.
+macro_rules! columns {
+    ($row:ty; $($name:literal, $unit:literal, $meaning:literal, $value:expr;)*) => {
+        &[$(Column::<$row> { name: $name, unit: $unit, meaning: $meaning, value: $value }),*]
+    };
+}
+
+const SAMPLE_TIME: &[Column<HistoryRow>] = columns![HistoryRow;
+    "time_s", "s", "end of the sample's interval, after release; forces are means over the interval", |r, _| r.time;
+];
+
+const SAMPLE_FORCES: &[Column<HistoryRow>] = columns![HistoryRow;
+    "force_normal_n", "N", "force against the barrier's face, positive when the material pushes; its base shear", |r, _| r.normal;
+    "force_tangential_n", "N", "force along the face, positive towards the crest, negative when the material drags it down", |r, _| r.tangential;
+    "overturning_moment_n_m", "N m", "moment about the foot, positive when the material pushes the barrier over", |r, _| r.moment;
+    "force_normal_max_n", "N", "largest normal force of a single step in the interval", |r, _| r.normal_max;
+    "force_layer1_n", "N", "normal force from the stress of the nearest layer of material points", |r, _| r.layers[0];
+    "force_layer2_n", "N", "the same from the nearest two layers", |r, _| r.layers[1];
+    "force_layer3_n", "N", "the same from the nearest three layers", |r, _| r.layers[2];
+];
+
+const SAMPLE_BASE_AND_FRONT: &[Column<HistoryRow>] = columns![HistoryRow;
+    "base_normal_n", "N", "force of the base on the material along its normal", |r, _| r.base_normal;
+    "base_friction_n", "N", "force of the base on the material along it, positive down the flume", |r, _| r.base_friction;
+    "front_x_m", "m", "position that 1 % of the flow's mass has passed", |r, _| r.front.x;
+    "front_velocity_m_per_s", "m/s", "mean velocity along x of the mass within 0.05 m behind the front and of all ahead of it", |r, _| r.front.velocity;
+    "front_depth_m", "m", "largest flow depth within 0.1 m behind the front", |r, _| r.front.depth;
+];
+
+const SAMPLE_CREST: &[Column<HistoryRow>] = columns![HistoryRow;
+    "run_up_m", "m", "highest material within 1.5 cells of the barrier's face, above its foot", |r, _| r.run_up;
+    "overtopped_kg", "kg", "mass behind the barrier's face, there or already out of the domain", |r, _| r.overtopped;
+];
+
+const SAMPLE_FLOW: &[Column<HistoryRow>] = columns![HistoryRow;
+    "window_speed_mean_m_per_s", "m/s", "mean speed of the points in the window", |r, _| r.window_speed[0];
+    "window_speed_p95_m_per_s", "m/s", "their 95th percentile", |r, _| r.window_speed[1];
+    "kinetic_j", "J", "kinetic energy of everything but barriers", |r, _| r.kinetic;
+    "penetration_m", "m", "deepest that a point lies inside a boundary or a barrier", |r, _| r.penetration;
+    "time_step_s", "s", "length of the last time step", |r, _| r.time_step;
+];
+
+/// Samples of the gauges.
+pub(super) static HISTORY: TableKind<HistoryRow> = TableKind {
+    file: "history.csv",
+    row: "a sample of the gauges, with the forces on the first barrier",
+    groups: &[
+        Group(Per::Table, SAMPLE_TIME),
+        Group(Per::Table, SAMPLE_FORCES),
+        Group(Per::Table, SAMPLE_BASE_AND_FRONT),
+        Group(Per::Table, SAMPLE_CREST),
+        Group(Per::Table, SAMPLE_FLOW),
+    ],
+};
+
+/// Samples of a barrier that is not the first.
+pub(super) static FURTHER: TableKind<HistoryRow> = TableKind {
+    file: "history_NAME.csv",
+    row: "a sample of the barrier NAME, where it is not the first",
+    groups: &[Group(Per::Table, SAMPLE_TIME), Group(Per::Table, SAMPLE_FORCES), Group(Per::Table, SAMPLE_CREST)],
+};
+
+/// Energy by mechanism.
+pub(super) static ENERGY: TableKind<EnergyRow> = TableKind {
+    file: "energy.csv",
+    row: "the energy of everything, every tenth sample; dissipation is positive and counts from release",
+    groups: &[
+        Group(
+            Per::Table,
+            columns![EnergyRow;
+                "time_s", "s", "after release", |r, _| r.time;
+                "kinetic_j", "J", "kinetic energy", |r, _| r.balance.kinetic;
+                "gravitational_j", "J", "gravitational energy above the first barrier's foot, else above the origin", |r, _| r.balance.gravitational;
+                "elastic_j", "J", "elastic energy", |r, _| r.balance.elastic;
+                "plastic_j", "J", "work of the stresses that was not stored", |r, _| r.balance.plastic;
+            ],
+        ),
+        Group(
+            Per::Surface,
+            columns![EnergyRow;
+                "friction_{surface}_j", "J", "dissipated by sliding on this boundary, or between these two bodies", |r, k| r.balance.friction[k];
+            ],
+        ),
+        Group(
+            Per::Surface,
+            columns![EnergyRow;
+                "contact_{surface}_j", "J", "normal motion lost at this boundary, or between these two bodies; negative where a moving boundary does work", |r, k| r.balance.contact[k];
+            ],
+        ),
+        Group(
+            Per::Table,
+            columns![EnergyRow;
+                "pic_j", "J", "taken by the PIC share of the velocity update", |r, _| r.balance.pic;
+                "damping_j", "J", "taken by damping", |r, _| r.balance.damping;
+                "side_walls_j", "J", "dissipated by friction on the side walls", |r, _| r.balance.side_walls;
+                "outflow_j", "J", "carried out of the domain", |r, _| r.balance.outflow;
+                "residual_j", "J", "what was there at release, less all of the above", |r, _| r.balance.residual;
+            ],
+        ),
+    ],
+};
+
+/// Momentum by agent.
+pub(super) static MOMENTUM: TableKind<MomentumRow> = TableKind {
+    file: "momentum.csv",
+    row: "the impulses on everything since release, every tenth sample",
+    groups: &[
+        Group(
+            Per::Table,
+            columns![MomentumRow;
+                "time_s", "s", "after release", |r, _| r.time;
+                "gained_x_n_s", "N s", "momentum along x less that at release", |r, _| r.gained[0];
+                "gained_y_n_s", "N s", "momentum along y less that at release", |r, _| r.gained[1];
+                "gravity_x_n_s", "N s", "impulse of gravity along x", |r, _| r.ledger.gravity[0];
+                "gravity_y_n_s", "N s", "impulse of gravity along y", |r, _| r.ledger.gravity[1];
+            ],
+        ),
+        Group(
+            Per::Boundary,
+            columns![MomentumRow;
+                "{boundary}_x_n_s", "N s", "impulse of this boundary on the material along x", |r, k| r.ledger.boundaries[k].impulse[0];
+                "{boundary}_y_n_s", "N s", "impulse of this boundary on the material along y", |r, k| r.ledger.boundaries[k].impulse[1];
+            ],
+        ),
+        Group(
+            Per::Table,
+            columns![MomentumRow;
+                "damping_x_n_s", "N s", "impulse of damping along x", |r, _| r.ledger.damping.impulse[0];
+                "damping_y_n_s", "N s", "impulse of damping along y", |r, _| r.ledger.damping.impulse[1];
+                "side_walls_x_n_s", "N s", "impulse of the side walls along x", |r, _| r.ledger.side_walls.impulse[0];
+                "side_walls_y_n_s", "N s", "impulse of the side walls along y", |r, _| r.ledger.side_walls.impulse[1];
+                "outflow_x_n_s", "N s", "momentum along x carried out of the domain, as a loss", |r, _| -r.ledger.departed_momentum[0];
+                "outflow_y_n_s", "N s", "momentum along y carried out of the domain, as a loss", |r, _| -r.ledger.departed_momentum[1];
+                "residual_x_n_s", "N s", "gained along x less all impulses", |r, _| r.residual[0];
+                "residual_y_n_s", "N s", "gained along y less all impulses", |r, _| r.residual[1];
+            ],
+        ),
+    ],
+};
+
+/// Depth and velocity at the stations: time, x, depth, velocity.
+pub(super) static STATIONS: TableKind<[f64; 4]> = TableKind {
+    file: "stations.csv",
+    row: "a station at a moment, every tenth sample",
+    groups: &[Group(
+        Per::Table,
+        columns![[f64; 4];
+            "time_s", "s", "after release", |r, _| r[0];
+            "x_m", "m", "place of the station", |r, _| r[1];
+            "depth_m", "m", "flow depth in a strip two cells wide around it", |r, _| r[2];
+            "velocity_m_per_s", "m/s", "mean velocity along x in that strip", |r, _| r[3];
+        ],
+    )],
+};
+
+/// Mean pressure on a barrier: time, height, pressure.
+pub(super) static PRESSURE: TableKind<[f64; 3]> = TableKind {
+    file: "pressure_profile.csv",
+    row: "a height on the barrier over an interval between VTK frames",
+    groups: &[Group(
+        Per::Table,
+        columns![[f64; 3];
+            "time_s", "s", "end of the interval, after release", |r, _| r[0];
+            "height_m", "m", "height of the middle of the bin above the foot; bins are one cell high, half a cell at foot and crest", |r, _| r[1];
+            "pressure_pa", "Pa", "mean pressure over the interval", |r, _| r[2];
+        ],
+    )],
+};
+
+/// A barrier that is a body: time and sample.
+pub(super) static STRUCTURE: TableKind<(f64, StructureSample)> = TableKind {
+    file: "barrier.csv",
+    row: "a sample of a barrier that is a body; forces are means over the interval, against its face at the start and along it",
+    groups: &[Group(
+        Per::Table,
+        columns![(f64, StructureSample);
+            "time_s", "s", "end of the sample's interval, after release", |r, _| r.0;
+            "contact_normal_n", "N", "what the material gives to the barrier, against its face", |r, _| r.1.contact.normal;
+            "contact_tangential_n", "N", "what the material gives to the barrier, towards its crest", |r, _| r.1.contact.tangential;
+            "clamp_normal_n", "N", "what the barrier gives to its clamp, against its face", |r, _| r.1.clamp.normal;
+            "clamp_tangential_n", "N", "what the barrier gives to its clamp, towards its crest", |r, _| r.1.clamp.tangential;
+            "clamp_moment_n_m", "N m", "moment on the clamp about the foot, positive when it turns the barrier over", |r, _| r.1.clamp_moment;
+            "inertia_normal_n", "N", "rate of the barrier's momentum, against its face", |r, _| r.1.inertia.normal;
+            "inertia_tangential_n", "N", "rate of the barrier's momentum, towards its crest", |r, _| r.1.inertia.tangential;
+            "imbalance", "1", "contact and weight less clamp and inertia, over the sum of their magnitudes: round-off", |r, _| r.1.imbalance;
+            "tip_deflection_m", "m", "deflection of the highest point of the face, away from the material", |r, _| r.1.bend.tip;
+            "tip_velocity_m_per_s", "m/s", "its velocity", |r, _| r.1.bend.tip_velocity;
+            "largest_deflection_m", "m", "largest deflection of the face", |r, _| r.1.bend.largest;
+            "largest_deflection_height_m", "m", "its height above the foot at the start", |r, _| r.1.bend.largest_at;
+            "penetration_m", "m", "deepest that a point's domain lies inside the barrier", |r, _| r.1.survey.penetration;
+            "gap_cells", "cells", "widest gap between neighbouring points beyond what stretch explains; from 0.25 on the barrier is torn", |r, _| r.1.bend.gap;
+            "gap_height_m", "m", "its height above the foot at the start", |r, _| r.1.bend.gap_at;
+            "run_up_m", "m", "highest material within 1.5 cells of the face, above the foot", |r, _| r.1.survey.run_up;
+            "overtopped_kg", "kg", "mass behind the barrier, there or already out of the domain", |r, _| r.1.survey.overtopped;
+        ],
+    )],
+};
+
+const BENT: &[Column<(f64, ProfilePoint)>] = columns![(f64, ProfilePoint);
+    "time_s", "s", "after release", |r, _| r.0;
+    "height_m", "m", "height of the point above the foot at the start", |r, _| r.1.height;
+    "deflection_m", "m", "deflection away from the material", |r, _| r.1.deflection;
+    "velocity_m_per_s", "m/s", "velocity away from the material", |r, _| r.1.velocity;
+];
+
+/// How a barrier that is a body is bent.
+pub(super) static BENDING: TableKind<(f64, ProfilePoint)> = TableKind {
+    file: "barrier_profile.csv",
+    row: "a point of the face of a barrier that is a body, at each VTK frame",
+    groups: &[Group(Per::Table, BENT)],
+};
+
+/// How it was bent at its largest force.
+pub(super) static BENDING_AT_PEAK: TableKind<(f64, ProfilePoint)> = TableKind {
+    file: "barrier_profile_at_peak.csv",
+    row: "a point of that face when the mean force of a sample was largest",
+    groups: &[Group(Per::Table, BENT)],
+};
+
+/// The surface of a barrier that is a body: time, x, y.
+pub(super) static OUTLINE: TableKind<[f64; 3]> = TableKind {
+    file: "barrier_outline.csv",
+    row: "a point of the surface of a barrier that is a body, in order, at each of field_times_s",
+    groups: &[Group(
+        Per::Table,
+        columns![[f64; 3];
+            "time_s", "s", "after release", |r, _| r[0];
+            "x_m", "m", "place along x", |r, _| r[1];
+            "y_m", "m", "place along y", |r, _| r[2];
+        ],
+    )],
+};
+
+/// Velocity and stress by cell.
+pub(super) static FIELD: TableKind<(f64, FieldCell)> = TableKind {
+    file: "field.csv",
+    row: "a cell that holds material, at each of field_times_s; means are weighted by mass",
+    groups: &[Group(
+        Per::Table,
+        columns![(f64, FieldCell);
+            "time_s", "s", "after release", |r, _| r.0;
+            "x_m", "m", "middle of the cell along x", |r, _| r.1.x[0];
+            "y_m", "m", "middle of the cell along y", |r, _| r.1.x[1];
+            "solid_fraction", "1", "share of the cell's volume filled with material", |r, _| r.1.fill;
+            "velocity_x_m_per_s", "m/s", "mean velocity along x", |r, _| r.1.v[0];
+            "velocity_y_m_per_s", "m/s", "mean velocity along y", |r, _| r.1.v[1];
+            "speed_m_per_s", "m/s", "magnitude of the mean velocity", |r, _| r.1.v[0].hypot(r.1.v[1]);
+            "pressure_pa", "Pa", "mean of minus a third of the trace of the stress, positive in compression", |r, _| r.1.pressure;
+            "plastic_shear_strain", "1", "mean equivalent plastic shear strain since the start", |r, _| r.1.plastic_shear;
+        ],
+    )],
+};
+
+/// Corners of the boundaries: number, x, y.
+pub(super) static GEOMETRY: TableKind<[f64; 3]> = TableKind {
+    file: "geometry.csv",
+    row: "a corner of a boundary that stays, in order; planes are cut to a strip along the domain",
+    groups: &[Group(
+        Per::Table,
+        columns![[f64; 3];
+            "boundary", "-", "number of the boundary in the case, from 0", |r, _| r[0];
+            "x_m", "m", "place of the corner along x", |r, _| r[1];
+            "y_m", "m", "place of the corner along y", |r, _| r[2];
+        ],
+    )],
+};
+
+#[cfg(test)]
+#[path = "columns_tests.rs"]
+mod tests;

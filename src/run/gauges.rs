@@ -1,0 +1,207 @@
+//! The gauges of a case, as a list: barriers, base, stations, window.
+
+use super::records::HistoryRow;
+use super::scene;
+use crate::case::Case;
+use crate::gauge::structure::ProfilePoint;
+use crate::gauge::{BarrierGauge, BaseGauge, ForceSample, StructureGauge, StructureSample, flow, layers};
+use crate::simulation::Simulation;
+
+/// A barrier: the force on it, and, if it is a body, how it takes that.
+#[derive(Debug)]
+pub struct Barrier {
+    name: String,
+    force: BarrierGauge,
+    structure: Option<StructureGauge>,
+    peak: PeakProfile,
+}
+
+/// What is read at a barrier.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BarrierSample {
+    /// Means over the interval.
+    pub force: ForceSample,
+    /// Normal force from the stress of the nearest 1, 2, 3 layers of material points, N.
+    pub layers: [f64; 3],
+    /// Highest material beside it, m above its foot.
+    pub run_up: f64,
+    /// Mass behind it, kg.
+    pub overtopped: f64,
+    /// How it takes it, if it is a body.
+    pub structure: Option<StructureSample>,
+}
+
+/// How a barrier was bent at its largest force.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PeakProfile {
+    /// Mean normal force of the sample, N.
+    pub force: f64,
+    /// End of the sample, s.
+    pub time: f64,
+    /// The points of its face.
+    pub points: Vec<ProfilePoint>,
+}
+
+impl Barrier {
+    /// A gauge on the boundary or the body of this name; `None` if there is neither.
+    fn new(case: &Case, simulation: &Simulation, name: &str) -> Option<Self> {
+        let structure = structure(case, simulation, name);
+        let force = match &structure {
+            Some(s) => BarrierGauge::on_body(simulation, s.body(), s.face().clone()),
+            None => BarrierGauge::new(simulation, simulation.boundary_index(name)?),
+        };
+        Some(Self { name: name.into(), force, structure, peak: PeakProfile::default() })
+    }
+
+    /// Its name in the case.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The gauge of the force on it.
+    pub fn force(&self) -> &BarrierGauge {
+        &self.force
+    }
+
+    /// The gauge of how it takes that, if it is a body.
+    pub fn structure(&self) -> Option<&StructureGauge> {
+        self.structure.as_ref()
+    }
+
+    /// How it was bent, if it is a body, when the mean force of a sample was largest.
+    pub fn peak_profile(&self) -> &PeakProfile {
+        &self.peak
+    }
+
+    /// Forgets what it has seen of a body while the material settled.
+    fn open(&mut self, simulation: &Simulation) {
+        if let Some(structure) = &mut self.structure {
+            structure.open(simulation);
+        }
+    }
+
+    /// Reads the last step.
+    fn after_step(&mut self, simulation: &Simulation) {
+        self.force.after_step(simulation);
+        if let Some(structure) = &mut self.structure {
+            structure.after_step(simulation);
+        }
+    }
+
+    /// Means since the last call, and the state now.
+    pub(super) fn sample(&mut self, simulation: &Simulation) -> BarrierSample {
+        let force = self.force.sample();
+        let mut sample = BarrierSample { force, ..BarrierSample::default() };
+        if let Some(boundary) = self.force.boundary() {
+            sample.layers = layers::normal_force(simulation, boundary);
+            let wall = flow::wall_state(simulation, boundary);
+            (sample.run_up, sample.overtopped) = (wall.run_up, wall.overtopped);
+        }
+        if let Some(structure) = &mut self.structure {
+            let s = structure.sample(simulation);
+            (sample.layers, sample.run_up, sample.overtopped) = (s.survey.layers, s.survey.run_up, s.survey.overtopped);
+            sample.structure = Some(s);
+            if force.normal > self.peak.force {
+                self.peak = PeakProfile { force: force.normal, time: simulation.time(), points: structure.profile() };
+            }
+        }
+        sample
+    }
+
+    /// Mean pressure on it since the last call: (height above the foot in m, pressure in Pa).
+    pub(super) fn pressure(&mut self, simulation: &Simulation) -> Vec<(f64, f64)> {
+        self.force.profile(simulation.thickness())
+    }
+}
+
+impl BarrierSample {
+    /// What of it goes into a row of samples.
+    pub(super) fn write(&self, row: &mut HistoryRow) {
+        row.normal = self.force.normal;
+        row.tangential = self.force.tangential;
+        row.moment = self.force.moment;
+        row.normal_max = self.force.normal_max;
+        row.layers = self.layers;
+        row.run_up = self.run_up;
+        row.overtopped = self.overtopped;
+    }
+}
+
+/// The gauges of a case.
+#[derive(Debug)]
+pub(super) struct Gauges {
+    /// Barriers, the first of which is what is meant by the barrier.
+    pub barriers: Vec<Barrier>,
+    /// Indices of those that are bodies: what is said of the flow leaves them out.
+    pub structures: Vec<usize>,
+    /// The base.
+    pub base: Option<BaseGauge>,
+    /// Where depth and velocity are read, m.
+    pub stations: Vec<f64>,
+    window: Option<flow::Window>,
+    front: flow::FrontScratch,
+    speeds: Vec<f64>,
+}
+
+impl Gauges {
+    /// Those of a case that has passed validation.
+    pub fn new(case: &Case, simulation: &Simulation) -> Self {
+        let gauges = &case.gauges;
+        let barriers: Vec<_> = gauges.barrier_names().filter_map(|name| Barrier::new(case, simulation, name)).collect();
+        let window = gauges.window_x_m.zip(gauges.window_y_m);
+        Self {
+            structures: barriers.iter().filter_map(|b| b.structure.as_ref()).map(StructureGauge::body).collect(),
+            barriers,
+            base: gauges.base.as_ref().and_then(|name| simulation.boundary_index(name)).map(BaseGauge::new),
+            stations: gauges.stations_m.clone(),
+            window: window.map(|(x, y)| flow::Window { x, y }),
+            front: flow::FrontScratch::default(),
+            speeds: Vec::new(),
+        }
+    }
+
+    /// The clock starts now.
+    pub fn open(&mut self, simulation: &Simulation) {
+        self.barriers.iter_mut().for_each(|b| b.open(simulation));
+    }
+
+    /// Reads the last step.
+    pub fn after_step(&mut self, simulation: &Simulation) {
+        self.barriers.iter_mut().for_each(|b| b.after_step(simulation));
+        if let Some(base) = &mut self.base {
+            base.after_step(simulation);
+        }
+    }
+
+    /// Means since the last call, and the state now, of everything but the barriers.
+    pub fn sample(&mut self, simulation: &Simulation, motion: &flow::Motion) -> HistoryRow {
+        let mut row = HistoryRow {
+            time: simulation.time(),
+            kinetic: motion.kinetic,
+            time_step: simulation.time_step().dt,
+            front: flow::front(simulation, &self.structures, &mut self.front),
+            penetration: flow::penetration(simulation).0,
+            ..HistoryRow::default()
+        };
+        if let Some(base) = &mut self.base {
+            let force = base.sample();
+            (row.base_normal, row.base_friction) = (force.normal, force.friction);
+        }
+        if let Some(window) = &self.window {
+            row.window_speed = flow::window_speed(simulation, &self.structures, window, &mut self.speeds).into();
+        }
+        row
+    }
+}
+
+/// The gauge on the body of this name; `None` if a boundary has it.
+fn structure(case: &Case, simulation: &Simulation, name: &str) -> Option<StructureGauge> {
+    let (body, face) = (scene::index(case, name)?, scene::barrier_face(case, name)?);
+    let b = &case.bodies[body];
+    let counts = b.particle_counts(&case.grid).map(|n| n as usize);
+    Some(StructureGauge::new(simulation, body, face, counts, b.rotation_deg.to_radians()))
+}
+
+#[cfg(test)]
+#[path = "gauges_tests.rs"]
+mod tests;
