@@ -65,6 +65,12 @@ impl ActiveGrid {
         self.row_zero.extend(self.columns.iter().map(|c| c.start as i32 - c.row));
     }
 
+    /// Index of the node at a column and row counted from the grid's corner; of no node where the column has no such row.
+    #[inline(always)]
+    pub fn node(&self, column: usize, row: i32) -> i32 {
+        self.row_zero[column] + row
+    }
+
     /// Column and row of a node, counted from the origin of the lattice.
     pub fn place(&self, node: usize) -> [i64; 2] {
         let c = self.columns.partition_point(|c| c.start as usize <= node) - 1;

@@ -9,8 +9,7 @@
 use crate::band::{Band, BandSums};
 use crate::body::{Body, Particle, Points};
 use crate::grid::{ActiveGrid, Column, Lattice};
-use crate::lanes::floor_to_int;
-use crate::shape::{STENCIL, ShapeFunction};
+use crate::shape::{STENCIL, ShapeFunction, stencil};
 
 /// Nodes beside a sorted stencil that drift can reach, on either side.
 const DRIFT: usize = 1;
@@ -91,7 +90,8 @@ impl Sorter {
             let half_width = rules.shape.half_width(rules.bodies[body].points_per_direction);
             let corner = rules.lattice.position(low[0], low[1]);
             self.cells[body].extend(all.iter().map(|p| {
-                let cell = |d: usize| floor_to_int((p.x[d] - corner[d]) / h - half_width).0;
+                // Divided, where others multiply with one over the spacing: the last bit decides about points on a node.
+                let cell = |d: usize| stencil::start((p.x[d] - corner[d]) / h, half_width).0;
                 [cell(0), cell(1)]
             }));
         }

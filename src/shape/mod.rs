@@ -4,6 +4,8 @@
 //! stencil. The quadratic B-spline is the uGIMP function of a particle domain that is one cell wide (both are the hat function
 //! averaged over a box), so the two share their code; the hat itself is the limit of a domain of no width.
 
+pub mod stencil;
+
 /// Nodes of the stencil in each direction.
 pub const STENCIL: usize = 3;
 

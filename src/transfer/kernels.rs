@@ -5,9 +5,10 @@
 
 use super::{NodeMap, PointConstants, StressUpdate, VelocityUpdate};
 use crate::band::{BandSums, NodeSum};
-use crate::body::{Block, Particle, Points};
+use crate::body::{Particle, Points};
 use crate::constitutive::{Finger, Increment, Law, PointState, Stress};
-use crate::lanes::{LANES, Lane, floor_to_int};
+use crate::lanes::{LANES, Lane};
+use crate::shape::stencil::Stencils;
 use crate::shape::{STENCIL, Shape1d};
 use crate::vector::{Pack4, Pack8, Unit};
 
@@ -15,48 +16,6 @@ use crate::vector::{Pack4, Pack8, Unit};
 const AHEAD: usize = 4;
 
 const ZERO: Lane = [0.0; LANES];
-
-/// Stencils of eight points: first node of each column, weights and gradients in each direction.
-struct Stencils {
-    first: [[usize; LANES]; STENCIL],
-    /// Equal for points that touch the same nodes.
-    key: [i64; LANES],
-    w: [[Lane; STENCIL]; 2],
-    g: [[Lane; STENCIL]; 2],
-}
-
-impl Stencils {
-    /// Made once a loop, since filling it with zeros costs as much as a tenth of the work on a block.
-    const EMPTY: Self =
-        Self { first: [[0; LANES]; STENCIL], key: [0; LANES], w: [[ZERO; STENCIL]; 2], g: [[ZERO; STENCIL]; 2] };
-
-    #[inline(always)]
-    fn evaluate<S: Shape1d>(&mut self, shape: S, map: &NodeMap, block: &Block) {
-        let s = self;
-        let mut node = [[0; LANES]; 2];
-        for d in 0..2 {
-            for l in 0..LANES {
-                let u = (block.x[d][l] - map.corner[d]) * map.inverse_spacing - shape.shift();
-                let (b, r) = floor_to_int(u);
-                let (w, g) = shape.eval(r);
-                node[d][l] = b;
-                for k in 0..STENCIL {
-                    s.w[d][k][l] = w[k];
-                    s.g[d][k][l] = g[k] * map.inverse_spacing;
-                }
-            }
-        }
-        for l in 0..LANES {
-            s.key[l] = (i64::from(node[0][l]) << 32) ^ i64::from(node[1][l]);
-        }
-        for l in 0..LANES {
-            let first = map.columns(node[0][l], node[1][l]);
-            for i in 0..STENCIL {
-                s.first[i][l] = first[i];
-            }
-        }
-    }
-}
 
 /// The `N` numbers at `first` of a flat nodal field, for the three nodes of a stencil column (and a fourth where `N` is more).
 #[inline(always)]
@@ -109,7 +68,7 @@ pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
         if let Some(soon) = points.block(number + AHEAD) {
             U::prefetch(soon);
         }
-        stencil.evaluate(shape, map, block);
+        map.stencils(&mut stencil, shape, block);
         for l in 0..LANES {
             let volume = constants.volume * block.volume_ratio[l];
             if INERTIA {
@@ -170,7 +129,7 @@ pub fn scatter_field<S: Shape1d>(
 ) {
     let mut stencil = Stencils::EMPTY;
     for ((block, n), ids) in points.blocks().zip(points.ids()) {
-        stencil.evaluate(shape, map, block);
+        map.stencils(&mut stencil, shape, block);
         for l in 0..n {
             let f = acceleration(&block.get(l, ids[l])).map(|a| mass * a);
             for i in 0..STENCIL {
@@ -206,7 +165,7 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
             U::prefetch(soon);
         }
         let (block, n) = (&mut blocks[number], LANES.min(len - number * LANES));
-        stencil.evaluate(shape, map, block);
+        map.stencils(&mut stencil, shape, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
             let (mut two, mut third) = (U::Pack8::splat(0.0), U::Pack4::splat(0.0));
@@ -295,7 +254,7 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
             U::prefetch(soon);
         }
         let (block, n) = (&mut blocks[number], LANES.min(len - number * LANES));
-        stencil.evaluate(shape, map, block);
+        map.stencils(&mut stencil, shape, block);
         let mut rows = [U::Pack4::splat(0.0); LANES];
         for l in 0..LANES {
             // Weighted and differentiated along x; both velocities of three nodes.

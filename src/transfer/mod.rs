@@ -10,8 +10,10 @@ pub use dispatch::{
     VectorUnit, gather_velocity, limit_vector_unit, scatter, scatter_field, update_stress, vector_unit,
 };
 
+use crate::body::Block;
 use crate::grid::ActiveGrid;
-use crate::shape::STENCIL;
+use crate::shape::stencil::Stencils;
+use crate::shape::{STENCIL, Shape1d};
 
 /// What a scatter adds to the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,6 +77,12 @@ impl<'a> NodeMap<'a> {
             inverse_spacing: grid.inverse_spacing,
             first_node: first_node as i32,
         }
+    }
+
+    /// Follows the points of a block.
+    #[inline(always)]
+    fn stencils<S: Shape1d>(&self, stencils: &mut Stencils, shape: S, block: &Block) {
+        stencils.evaluate(shape, &block.x, self.corner, self.inverse_spacing, |i, j| self.columns(i, j));
     }
 
     /// Indices of the nodes at row `j` of column `i` and of the columns after it, both counted from the grid's corner.

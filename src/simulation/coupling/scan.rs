@@ -2,8 +2,8 @@
 
 use crate::contact::Vector;
 use crate::grid::ActiveGrid;
-use crate::lanes::floor_to_int;
-use crate::shape::{AveragedHat, Hat, STENCIL, Shape1d, ShapeFunction};
+use crate::shape::stencil::Stencil;
+use crate::shape::{STENCIL, ShapeFunction};
 use crate::simulation::field::VelocityField;
 
 /// Marks nodes of a grid, and the places where the stencils of points start that see them.
@@ -22,10 +22,7 @@ pub(super) struct Marks {
 pub(super) struct Near {
     /// Position, m.
     pub x: Vector,
-    /// Where its stencil starts in the grid, and its place from there in cells.
-    start: [i32; 2],
-    rest: [f64; 2],
-    half_width: f64,
+    stencil: Stencil,
 }
 
 /// What a node sees of a point.
@@ -60,7 +57,7 @@ impl Marks {
 
     /// Marks a node at `place` (column and row of its grid) with a number.
     pub fn set(&mut self, grid: &ActiveGrid, place: [i32; 2], number: usize) {
-        let node = (grid.row_zero[place[0] as usize] + place[1]) as usize;
+        let node = grid.node(place[0] as usize, place[1]) as usize;
         self.numbers[node] = number as i32;
         self.marked.push(node as u32);
         for i in 0..STENCIL as i32 {
@@ -93,11 +90,10 @@ impl Marks {
                 for ((block, n), ids) in points.blocks().zip(points.ids()) {
                     for (l, &id) in ids[..n].iter().enumerate() {
                         let x = [block.x[0][l], block.x[1][l]];
-                        let at =
-                            [0, 1].map(|d| floor_to_int((x[d] - grid.corner[d]) * grid.inverse_spacing - half_width));
-                        let (start, rest) = (at.map(|(i, _)| i), at.map(|(_, r)| r));
-                        if self.near[(grid.row_zero[start[0] as usize] + start[1]) as usize] {
-                            visit(&Near { x, start, rest, half_width }, id, block.volume_ratio[l]);
+                        let stencil = Stencil::new(x, grid.corner, grid.inverse_spacing, half_width);
+                        let [column, row] = stencil.start;
+                        if self.near[grid.node(column as usize, row) as usize] {
+                            visit(&Near { x, stencil }, id, block.volume_ratio[l]);
                         }
                     }
                 }
@@ -107,22 +103,12 @@ impl Marks {
 
     /// Calls `visit` with the number of each marked node that sees a point, and what it sees.
     pub fn nodes(&self, grid: &ActiveGrid, point: &Near, mut visit: impl FnMut(usize, &Seen)) {
-        let [(wx, gx), (wy, gy)] = point.rest.map(|r| weights(point.half_width, r));
-        for a in 0..STENCIL {
-            let first = grid.row_zero[point.start[0] as usize + a] + point.start[1];
-            for b in 0..STENCIL {
-                let number = self.numbers[first as usize + b];
-                let weight = wx[a] * wy[b];
-                if number >= 0 && weight > 0.0 {
-                    let per = grid.inverse_spacing;
-                    let gradient = [gx[a] * wy[b] * per, wx[a] * gy[b] * per];
-                    visit(number as usize, &Seen { weight, gradient });
-                }
+        let [column, row] = point.stencil.start;
+        point.stencil.nodes(|[a, b], weight, gradient| {
+            let number = self.numbers[grid.node(column as usize + a, row + b as i32) as usize];
+            if number >= 0 {
+                visit(number as usize, &Seen { weight, gradient });
             }
-        }
+        });
     }
-}
-
-fn weights(half_width: f64, r: f64) -> ([f64; STENCIL], [f64; STENCIL]) {
-    if half_width > 0.0 { AveragedHat::new(half_width).eval(r) } else { Hat.eval(r) }
 }

@@ -2,9 +2,10 @@
 
 use super::{Banded, ImplicitBody, Point, TOUCHABLE};
 use crate::constitutive::AnyLaw;
-use crate::lanes::floor_to_int;
-use crate::shape::{AveragedHat, Hat, STENCIL, Shape1d, ShapeFunction};
+use crate::shape::stencil::Stencil;
+use crate::shape::{STENCIL, ShapeFunction};
 use crate::simulation::field::VelocityField;
+use crate::space::dot;
 
 /// Lame's parameters lambda and mu, Pa.
 fn lame(law: &AnyLaw) -> [f64; 2] {
@@ -13,10 +14,6 @@ fn lame(law: &AnyLaw) -> [f64; 2] {
         AnyLaw::DruckerPrager(dp) => [dp.elastic.bulk - 2.0 / 3.0 * dp.elastic.shear, dp.elastic.shear],
         AnyLaw::NeoHookean(law) => [law.lame, law.shear],
     }
-}
-
-fn weights(half_width: f64, r: f64) -> ([f64; STENCIL], [f64; STENCIL]) {
-    if half_width > 0.0 { AveragedHat::new(half_width).eval(r) } else { Hat.eval(r) }
 }
 
 impl ImplicitBody {
@@ -53,24 +50,14 @@ impl ImplicitBody {
         self.points.clear();
         let mut mass = vec![0.0; grid.len()];
         for base in field.bands.iter().flat_map(|b| b.points[0].iter()) {
-            let at = [0, 1].map(|d| floor_to_int((base.x[d] - grid.corner[d]) * grid.inverse_spacing - half_width));
-            let [(wx, gx), (wy, gy)] = at.map(|(_, r)| weights(half_width, r));
+            let stencil = Stencil::new(base.x, grid.corner, grid.inverse_spacing, half_width);
+            let [column, row] = stencil.start;
             let mut point = Point { base, nodes: [0; 9], weight: [0.0; 9], gradient: [[0.0; 2]; 9] };
-            for a in 0..STENCIL {
-                for b in 0..STENCIL {
-                    let node = grid.row_zero[at[0].0 as usize + a] + at[1].0 + b as i32;
-                    let k = a * STENCIL + b;
-                    // A node without weight may lie beyond the grid.
-                    let weight = wx[a] * wy[b];
-                    let per = grid.inverse_spacing;
-                    if weight > 0.0 {
-                        mass[node as usize] += weight * body.point_mass;
-                        point.weight[k] = weight;
-                        point.gradient[k] = [gx[a] * wy[b] * per, wx[a] * gy[b] * per];
-                        point.nodes[k] = node as u32;
-                    }
-                }
-            }
+            stencil.nodes(|[a, b], weight, gradient| {
+                let (k, node) = (a * STENCIL + b, grid.node(column as usize + a, row + b as i32));
+                mass[node as usize] += weight * body.point_mass;
+                (point.weight[k], point.gradient[k], point.nodes[k]) = (weight, gradient, node as u32);
+            });
             self.points.push(point);
         }
         self.order(field, &mass);
@@ -87,7 +74,7 @@ impl ImplicitBody {
         };
         let angle = 0.5 * libm::atan2(2.0 * moment(0, 1), moment(0, 0) - moment(1, 1));
         let axis = [libm::cos(angle), libm::sin(angle)];
-        let along = |i: usize| positions[i][0] * axis[0] + positions[i][1] * axis[1];
+        let along = |i: usize| dot(positions[i], axis);
         nodes.sort_by(|&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
         let mut number = vec![u32::MAX; mass.len()];
         self.places.clear();
@@ -134,12 +121,12 @@ impl ImplicitBody {
                 for (&j, (_, h)) in p.nodes.iter().zip(p.weight.iter().zip(&p.gradient)).filter(|(_, (w, _))| **w > 0.0)
                 {
                     let j = 2 * j as usize;
-                    let dot = g[0] * h[0] + g[1] * h[1];
+                    let product = dot(*g, *h);
                     for d in 0..2 {
                         for e in 0..2 {
                             let mut c = lambda * g[d] * h[e] + mu * g[e] * h[d];
                             if d == e {
-                                c += mu * dot;
+                                c += mu * product;
                             }
                             if j + e <= i + d {
                                 self.stiffness.add(i + d, j + e, volume * c);
