@@ -18,8 +18,37 @@
 //! **Determinism.** The same case gives the same bits on every run, for any number of threads and any vector unit: sums have a
 //! fixed order, there is no fused multiply-add, and transcendental functions come from `libm`.
 //!
-//! **Who knows whom.** [`theory`] imports nothing of the solver; [`constitutive`] knows one point and no grid; [`gauge`] and
-//! [`ledger`] read and never touch; the solver ([`simulation`] and what it uses) knows neither files nor pictures.
+//! **Who may name whom.** [`theory`] imports nothing of the solver; [`constitutive`] knows one point and no grid; [`gauge`] and
+//! [`ledger`] read and never touch; the solver ([`simulation`] and what it uses) knows neither files nor pictures. Room by room, and
+//! held by a test (`src/directions_tests.rs`):
+//!
+//! ```text
+//! space:
+//! lanes:
+//! vector:
+//! shape:        lanes space
+//! grid:         space
+//! constitutive: lanes space
+//! body:         constitutive lanes space
+//! boundary:     grid space
+//! contact:      lanes space
+//! ledger:       boundary contact space
+//! band:         body boundary lanes ledger space
+//! momentum:     band boundary ledger space
+//! layout:       band body grid shape space
+//! transfer:     band body constitutive grid lanes shape space vector
+//! timestep:     body
+//! simulation:   band body boundary constitutive contact grid lanes layout ledger momentum shape space timestep transfer
+//! gauge:        band body boundary constitutive contact grid lanes ledger simulation space
+//! theory:
+//! check:
+//! output:
+//! plot:         check output
+//! case:         boundary constitutive contact shape simulation
+//! run:          body boundary case constitutive contact gauge grid ledger output plot shape simulation space timestep
+//! study:        case check output plot run
+//! scaffold:     body boundary constitutive grid shape simulation
+//! ```
 //!
 //! Start with [`simulation::Simulation::step`], which is the algorithm on one screen, or with [`run::run`].
 
@@ -33,6 +62,8 @@ pub mod case;
 pub mod check;
 pub mod constitutive;
 pub mod contact;
+#[cfg(test)]
+mod directions_tests;
 pub mod gauge;
 pub mod grid;
 pub mod lanes;
