@@ -4,6 +4,8 @@
 //! integer parts of where the point lies in cells, less the shift of the shape function; what is left over decides the weights.
 //! [`Stencils`] are those of a block of points, for the hot loops; [`Stencil`] is that of one point, for everything else.
 
+#![expect(clippy::needless_range_loop, reason = "loops over lanes and nodes index several parallel arrays")]
+
 use super::{AveragedHat, Hat, STENCIL, Shape1d};
 use crate::lanes::{LANES, Lane, floor_to_int};
 

@@ -1,6 +1,7 @@
 //! Reading a simulation, and steering it between steps.
 
 use super::field::VelocityField;
+use super::sweep::{self, On};
 use super::{AccelerationField, ContactPoint, PicShare, Simulation, potential};
 use crate::band::{Band, Workspace};
 use crate::body::{Block, Body, Particle};
@@ -160,6 +161,20 @@ impl Simulation {
     /// Number of material points.
     pub fn particle_count(&self) -> usize {
         self.bands().map(Band::len).sum()
+    }
+
+    /// Parts into which so many threads divide a sweep over the points as they lie now; where a step has several sweeps, of the one
+    /// with the fewest. What a step computes does not depend on it.
+    pub fn parts(&self, threads: usize) -> usize {
+        let stages = self.numerics.scheme.stages();
+        let implicit = |field: usize| self.implicit.iter().any(|b| b.field == field);
+        let swept = self.fields.iter().enumerate().filter(|(k, _)| !implicit(*k));
+        let bands = swept.map(|(_, f)| f.bands.len()).sum();
+        if self.coupling.is_empty() {
+            return sweep::parts(stages, bands, threads);
+        }
+        let sweeps = stages.split_inclusive(|(on, _)| *on == On::Nodes);
+        sweeps.map(|stages| sweep::parts(stages, bands, threads)).min().unwrap_or(1)
     }
 
     /// Number of active nodes.

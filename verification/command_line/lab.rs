@@ -73,6 +73,23 @@ pub const TABLES: [&str; 7] =
     ["energy.csv", "field.csv", "geometry.csv", "history.csv", "momentum.csv", "pressure_profile.csv", "stations.csv"];
 pub const FIGURES: [&str; 4] = ["energy_shares.svg", "flow_snapshots.svg", "force_time.svg", "pressure_profile.svg"];
 
+/// [`TINY`] with cells of a centimetre and sand of 60 columns, which make twelve bands: 4,800 points that several threads divide.
+pub fn wide() -> String {
+    let changes = [
+        ("spacing_m = 0.05", "spacing_m = 0.01"),
+        ("x_m = [-0.2, 0.0]", "x_m = [-0.35, 0.25]"),
+        ("y_m = [0.0, 0.4]", "y_m = [0.0, 0.2]"),
+        ("mass_kg = 24", "mass_kg = 36"),
+        ("end_time_s = 0.4", "end_time_s = 0.05"),
+        ("field_times_s = [0.0, 0.1, 0.2]", "field_times_s = [0.0, 0.02]"),
+        ("vtk_interval_s = 0.05", "vtk_interval_s = 0.02"),
+    ];
+    changes.into_iter().fold(TINY.to_string(), |case, (replace, by)| {
+        assert_eq!(case.matches(replace).count(), 1, "{replace:?}");
+        case.replace(replace, by)
+    })
+}
+
 /// [`TINY`] with one text replaced.
 pub fn changed(replace: &str, by: &str) -> String {
     assert_eq!(TINY.matches(replace).count(), 1, "{replace:?} does not stand in the case once");

@@ -1,6 +1,6 @@
 //! `checkdam check` and `checkdam run`.
 
-use crate::lab::{FIGURES, Lab, TABLES, TINY, changed};
+use crate::lab::{FIGURES, Lab, TABLES, TINY, changed, wide};
 use std::fs;
 use std::path::Path;
 
@@ -123,8 +123,13 @@ fn a_run_leaves_everything_it_promises() {
 
 #[test]
 fn the_number_of_threads_changes_no_byte() {
-    let lab = Lab::new(TINY);
-    for threads in ["1", "2", "3", "8"] {
+    let wide = wide();
+    let lab = Lab::new(&wide);
+    let case = checkdam::case::load(&lab.path("case.toml")).expect("the case is valid").case;
+    let experiment = checkdam::run::Experiment::new(&case);
+    for (threads, parts) in [("1", 1), ("2", 2), ("3", 3), ("8", 3)] {
+        let divided = experiment.simulation().parts(threads.parse().expect("a number"));
+        assert_eq!(divided, parts, "parts for {threads} threads: one division compared with itself proves nothing");
         let outcome = lab.run(&["run", "case.toml", "--out", threads, "--threads", threads]);
         assert_eq!(outcome.code, Some(0), "{outcome:?}");
     }

@@ -70,7 +70,12 @@ pub fn sweep<S: Sync>(
     Plan { stages, work }.sweep(fields, pools, rayon::current_num_threads());
 }
 
-impl<S: Sync, W: Work<S>> Plan<'_, S, W> {
+/// Parts into which so many threads divide a sweep of these stages over so many bands.
+pub fn parts<S>(stages: &[(On, S)], bands: usize, threads: usize) -> usize {
+    Plan { stages, work: &() }.parts(bands, threads)
+}
+
+impl<S, W> Plan<'_, S, W> {
     /// Bands by which a stage follows the first.
     fn lag(&self, stage: usize) -> usize {
         self.stages[..=stage].windows(2).filter(|w| w[0].0 == On::Nodes && w[1].0 == On::Points).count()
@@ -86,6 +91,18 @@ impl<S: Sync, W: Work<S>> Plan<'_, S, W> {
         (0..self.stages.len()).map(|k| self.lag(k) + self.looks_back(k)).max().unwrap_or(0)
     }
 
+    /// Bands that belong to a seam, at most.
+    fn around(&self) -> usize {
+        2 * self.margin() + 1
+    }
+
+    /// So many parts, if there are enough bands.
+    fn parts(&self, bands: usize, wanted: usize) -> usize {
+        wanted.min(bands / PART_BANDS).min(bands / self.around() + 1).clamp(1, MAX_PARTS)
+    }
+}
+
+impl<S: Sync, W: Work<S>> Plan<'_, S, W> {
     /// Does a stage on a band, given the field of either and the band before it, which may be of another field.
     fn run(&self, stage: usize, before: Option<(usize, &mut Band)>, (field, band): (usize, &mut Band)) {
         let before = before.filter(|(other, _)| *other == field).map(|(_, before)| before);
@@ -95,8 +112,7 @@ impl<S: Sync, W: Work<S>> Plan<'_, S, W> {
     /// Sweeps in so many parts, if there are enough bands.
     fn sweep(&self, fields: &mut [Vec<Band>], mut pools: Option<&mut Vec<Pool>>, parts: usize) {
         let bands: usize = fields.iter().map(Vec::len).sum();
-        let (margin, around) = (self.margin(), 2 * self.margin() + 1);
-        let parts = parts.min(bands / PART_BANDS).min(bands / around + 1).clamp(1, MAX_PARTS);
+        let (margin, around, parts) = (self.margin(), self.around(), self.parts(bands, parts));
         if let Some(pools) = &mut pools
             && pools.len() < parts
         {
@@ -136,7 +152,7 @@ impl<S: Sync, W: Work<S>> Plan<'_, S, W> {
         };
         let start = seam - self.margin();
         let (before, rest) = bands.split_at(start - first);
-        let places = (2 * self.margin() + 1).min(rest.len());
+        let places = self.around().min(rest.len());
         let (around, after) = rest.split_at(places);
         let end = start + around.len();
         let (pools_before, pools_after) = pools.split_at_mut(pools.len().min(middle + 1));

@@ -68,6 +68,19 @@ fn check(fields: &[usize], [threads, parts]: [usize; 2], sweeps: &[&[(On, usize)
 }
 
 #[test]
+fn parts_have_four_bands_and_seams_five() {
+    let of = |bands, threads| parts(STAGES, bands, threads);
+    for (bands, most) in
+        [(0, 1), (7, 1), (8, 2), (11, 2), (12, 3), (15, 3), (16, 4), (24, 5), (36, 8), (1000, MAX_PARTS)]
+    {
+        assert_eq!(of(bands, 100), most, "{bands} bands");
+        assert_eq!([1, 2].map(|threads| of(bands, threads)), [1, most.min(2)]);
+    }
+    // A sweep up to the first stage on nodes has seams of three bands.
+    assert_eq!(parts(&STAGES[..2], 24, 100), 6);
+}
+
+#[test]
 fn every_stage_is_done_once_and_in_order() {
     let sweeps: Vec<_> = STAGES.split_inclusive(|(on, _)| *on == On::Nodes).collect();
     let single = [0, 1, 2, 3, 5, 11, 12, 13, 30, 47].map(|bands| vec![bands]);
