@@ -47,6 +47,7 @@
 //! case:         boundary constitutive contact shape simulation
 //! run:          body boundary case constitutive contact gauge grid ledger output plot shape simulation space timestep
 //! study:        case check output plot run
+//! reference:    case run study
 //! scaffold:     body boundary constitutive grid shape simulation
 //! ```
 //!

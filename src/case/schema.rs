@@ -247,7 +247,7 @@ pub struct Gauges {
     /// `[[boundaries]]`, or of a body in `[[contacts]]`, and not of both. Example: `"barrier"`.
     pub barrier: Option<String>,
     /// Names of several such boundaries and bodies, instead of `barrier`. The first is what is meant by the barrier; each of the
-    /// others has files and a table of results of its own. Default: `[]`. Allowed: as `barrier`, each name once; not together
+    /// others has files and a table of results of its own. Default: none. Allowed: as `barrier`, each name once; not together
     /// with `barrier`. Example: `["barrier", "second"]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub barriers: Vec<String>,
