@@ -70,7 +70,7 @@ pub mod grid;
 pub mod lanes;
 pub mod layout;
 pub mod ledger;
-pub mod momentum;
+mod momentum;
 pub mod output;
 pub mod plot;
 #[cfg(test)]
@@ -81,9 +81,9 @@ pub mod shape;
 pub mod simulation;
 #[cfg(test)]
 mod solver_tests;
-pub mod space;
+mod space;
 pub mod study;
 pub mod theory;
-pub mod timestep;
+mod timestep;
 pub mod transfer;
-pub mod vector;
+mod vector;

@@ -18,6 +18,7 @@ pub trait Pack4: Copy {
     /// From memory.
     fn load(from: &[f64; 4]) -> Self;
     /// To memory.
+    #[cfg(test)]
     fn array(self) -> [f64; 4];
     /// Component-wise sum.
     fn add(self, other: Self) -> Self;
@@ -84,6 +85,7 @@ impl Pack4 for [f64; 4] {
         *from
     }
     #[inline(always)]
+    #[cfg(test)]
     fn array(self) -> [f64; 4] {
         self
     }
@@ -206,6 +208,7 @@ mod x86 {
             unsafe { _mm256_loadu_pd(from.as_ptr()) }
         }
         #[inline(always)]
+        #[cfg(test)]
         fn array(self) -> [f64; 4] {
             let mut to = [0.0; 4];
             unsafe { _mm256_storeu_pd(to.as_mut_ptr(), self) };

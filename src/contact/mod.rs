@@ -16,12 +16,12 @@
 
 mod boxes;
 pub mod node;
-pub mod normal;
+pub(crate) mod normal;
 pub mod outline;
 pub mod pair;
-pub mod regression;
+pub(crate) mod regression;
 pub mod rule;
-pub mod separation;
+pub(crate) mod separation;
 pub mod side;
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ mod barrier;
 mod base;
 mod beside;
 pub mod flow;
-pub mod layers;
+pub(crate) mod layers;
 pub mod penetration;
 mod reaction;
 pub mod structure;

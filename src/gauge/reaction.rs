@@ -70,6 +70,7 @@ impl ReactionGauge {
     }
 
     /// Length of the interval so far, s.
+    #[cfg(test)]
     pub fn sampled_duration(&self) -> f64 {
         self.duration
     }

@@ -2,11 +2,11 @@
 //!
 //! Every writer here leaves a readable file at any moment: tables end in a whole row, everything else appears by rename.
 
-pub mod atomic;
+mod atomic;
 mod error;
-pub mod pvd;
-pub mod table;
-pub mod vtk;
+mod pvd;
+mod table;
+mod vtk;
 
 pub use atomic::{AtomicFile, write_text};
 pub use error::OutputError;

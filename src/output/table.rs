@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use super::OutputError;
 
-/// Significant digits written unless [`TableWriter::with_digits`] says otherwise.
-pub const DEFAULT_DIGITS: usize = 9;
+/// Significant digits written.
+pub const DIGITS: usize = 9;
 
 /// Bytes collected before they are handed to the file.
 const BUFFER_BYTES: usize = 1 << 16;
@@ -23,7 +23,6 @@ pub struct TableWriter {
     path: PathBuf,
     file: File,
     columns: usize,
-    digits: usize,
     buffer: Vec<u8>,
     scratch: String,
     /// Length of the file, always the end of a row.
@@ -66,7 +65,6 @@ impl TableWriter {
             path,
             file,
             columns: columns.len(),
-            digits: DEFAULT_DIGITS,
             buffer: header.into_bytes(),
             scratch: String::new(),
             bytes: 0,
@@ -75,13 +73,6 @@ impl TableWriter {
         };
         writer.flush()?;
         Ok(writer)
-    }
-
-    /// Sets the number of significant digits of the rows to come, from 1 to 17 (17 keeps every bit).
-    #[must_use]
-    pub fn with_digits(mut self, digits: usize) -> Self {
-        self.digits = digits.clamp(1, 17);
-        self
     }
 
     /// Adds a row, one value per column. It reaches the file when enough rows have collected or at [`flush`](Self::flush).
@@ -103,7 +94,7 @@ impl TableWriter {
                 self.buffer.push(b',');
             }
             self.scratch.clear();
-            push_number(&mut self.scratch, *value, self.digits);
+            push_number(&mut self.scratch, *value, DIGITS);
             self.buffer.extend_from_slice(self.scratch.as_bytes());
         }
         self.buffer.push(b'\n');

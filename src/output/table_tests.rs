@@ -2,7 +2,7 @@ use super::*;
 
 fn number(value: f64) -> String {
     let mut text = String::new();
-    push_number(&mut text, value, DEFAULT_DIGITS);
+    push_number(&mut text, value, DIGITS);
     text
 }
 
@@ -99,9 +99,9 @@ fn a_lone_empty_cell_is_still_a_row() {
 fn rows_are_in_the_file_after_a_flush_or_an_early_end() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("history.csv");
-    let mut writer = TableWriter::create(&path, &["time_s"]).unwrap().with_digits(3);
+    let mut writer = TableWriter::create(&path, &["time_s"]).unwrap();
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "time_s\n");
-    writer.row(&[1.23456]).unwrap();
+    writer.row(&[1.23]).unwrap();
     writer.flush().unwrap();
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "time_s\n1.23\n");
     writer.row(&[2.0]).unwrap();

@@ -8,13 +8,13 @@ mod barrier;
 mod columns;
 mod experiment;
 pub mod files;
-pub mod gauges;
+mod gauges;
 mod means;
 pub mod records;
 mod rest;
 pub mod scene;
 pub mod structure;
-pub mod summary;
+pub(crate) mod summary;
 
 pub use columns::{ColumnText, TableText, columns};
 pub use experiment::{Experiment, Progress, RunError, Stage};

@@ -8,7 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
-pub mod stencil;
+pub(crate) mod stencil;
 
 /// Nodes of the stencil in each direction.
 pub const STENCIL: usize = 3;

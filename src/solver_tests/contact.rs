@@ -4,7 +4,7 @@ use super::*;
 use crate::body::Particle;
 use crate::boundary::Friction;
 use crate::contact::rule::{ContactRule, GapRule, NormalRule};
-use crate::scaffold::{THICKNESS, points_by_number};
+use crate::scaffold::{THICKNESS, elastic, points_by_number, run_until};
 use crate::simulation::{AccelerationField, PicShare, Scheme};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -281,4 +281,34 @@ fn bodies_touch_again_when_the_gap_is_closed() {
             assert!(first.is_some_and(|k| (earliest..=latest).contains(&k)), "{turns} {normal:?} {gap:?}: {first:?}");
         }
     }
+}
+
+/// A block of 8 by 4 cells at rest on an elastic base as wide: what the base feels is the weight over the area, and friction has
+/// nothing to hold. A density or an area that is 3 % off fails.
+#[test]
+fn traction_on_a_base_is_the_weight_over_the_area() {
+    let (h, g, density) = (0.05, 9.81, 1500.0);
+    let lower = Brick::new([1.0, 1.0], [8, 4], h);
+    let upper = Brick::new([1.0, 1.0 + 4.0 * h], [8, 4], h);
+    let floor = Boundary::plane("floor", Vector2::new(0.0, 1.0), Vector2::new(0.0, 1.0), Friction::Smooth);
+    let law = elastic(1e6, 0.0);
+    let mut scene = scene(&lower, law, density, lower.points(), vec![floor]);
+    scene.bodies.push((upper.body(law, density), upper.points()));
+    scene.contacts = vec![ContactRule::with_structure(0, 1, 0.3)];
+    scene.gravity = [0.0, -g];
+    scene.numerics.pic = PicShare::Fraction(0.01);
+    let mut sim = Simulation::new(scene);
+    sim.set_damping(60.0);
+    run_until(&mut sim, 1.0).expect("it runs");
+    sim.step().expect("a step");
+    let (dt, points) = (sim.time_step().dt, sim.contact_points());
+    let area: f64 = points.iter().map(|p| p.area).sum();
+    let [pressure, shear] = [0, 1].map(|k| points.iter().map(|p| p.area * p.traction(dt)[k]).sum::<f64>() / area);
+    // Under its weight the surface sinks by some hundredths of a cell, and its nodes no longer see two equal halves.
+    assert!((area / (8.0 * h * THICKNESS) - 1.0).abs() < 0.02, "{area} m2");
+    assert!((pressure / (density * g * 4.0 * h) - 1.0).abs() < 0.02, "{pressure} Pa");
+    assert!(shear.abs() < 1e-3 * pressure, "{shear} Pa");
+    // The nodes in the middle of the surface.
+    let inner = points.iter().filter(|p| (p.x[0] - 1.2).abs() < 0.11 && p.x[1] > 1.0 + 3.9 * h);
+    inner.for_each(|p| assert!((p.area / (h * THICKNESS) - 1.0).abs() < 0.02, "{p:?}"));
 }

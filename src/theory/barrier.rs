@@ -1,6 +1,4 @@
-//! A cantilever barrier: how its stiffness is normalised, what its clamp carries, how much of it is energy, when it buckles.
-
-use super::cantilever::Cantilever;
+//! A cantilever barrier: how its stiffness is normalised, how much energy it holds bent, when it buckles.
 
 /// Flexural rigidity EI (N m2) and height (m) of the barrier that stands for 1: reinforced concrete of 25 GPa, 1 m thick, 3 m
 /// high, 0.2 m wide (Ng et al., Table 2).
@@ -23,27 +21,6 @@ pub fn tip_stiffness(rigidity: f64, height: f64) -> f64 {
     3.0 * rigidity / (height * height * height)
 }
 
-/// Shear force (N) and moment (N m) at the clamp under a load (N/m) given at heights over it, by the trapezoidal rule between
-/// `[height, load]` pairs.
-pub fn clamp_reaction(load: &[[f64; 2]]) -> [f64; 2] {
-    let mut sum = [0.0; 2];
-    for pair in load.windows(2) {
-        let ([z0, q0], [z1, q1]) = (pair[0], pair[1]);
-        let dz = z1 - z0;
-        sum[0] += 0.5 * (q0 + q1) * dz;
-        // The load is linear in between: Simpson's rule is exact for its moment.
-        sum[1] += dz / 6.0 * (q0 * z0 + (q0 + q1) * (z0 + z1) + q1 * z1);
-    }
-    sum
-}
-
-/// Deflection of the tip under an earth pressure that grows linearly from nothing at `reach` (m) over the clamp to `q0` (N/m) at
-/// the clamp: q0 a^4/(30 EI) + q0 a^3 (H - a)/(24 EI), m. Bending only.
-pub fn under_triangle(beam: &Cantilever, q0: f64, reach: f64) -> f64 {
-    let (ei, a) = (beam.bending_stiffness(), reach);
-    q0 * a * a * a * (a / 30.0 + (beam.length - a) / 24.0) / ei
-}
-
 /// Elastic energy of a barrier bent by a force at its tip, 1/2 (3 EI/H^3) w^2, J.
 pub fn bending_energy(rigidity: f64, height: f64, deflection: f64) -> f64 {
     0.5 * tip_stiffness(rigidity, height) * deflection * deflection
@@ -57,7 +34,6 @@ pub fn buckling_density(rigidity: f64, height: f64, section: f64, gravity: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::theory::elastic::Elastic;
 
     #[test]
     fn the_papers_barriers() {
@@ -78,29 +54,5 @@ mod tests {
             let found = buckling_density(n * 10e6 / 3.0, 0.6, 0.02, 9.81);
             assert!((found - density).abs() < 1.0, "{n}: {found}");
         }
-    }
-
-    #[test]
-    fn reactions_of_simple_loads() {
-        let [force, moment] = clamp_reaction(&[[0.0, 30.0], [0.3, 0.0]]);
-        assert!((force - 4.5).abs() < 1e-12 && (moment - 0.45).abs() < 1e-12, "acts at a third: {moment}");
-        assert_eq!(clamp_reaction(&[[0.0, 5.0], [2.0, 5.0]]), [10.0, 10.0]);
-        assert_eq!(clamp_reaction(&[]), [0.0; 2]);
-    }
-
-    #[test]
-    fn a_triangle_over_the_whole_height() {
-        let elastic = Elastic { young: 1e6, poisson: 0.0 };
-        let beam = Cantilever { elastic, density: 1.0, length: 0.6, depth: 0.1, width: 0.2 };
-        let w = under_triangle(&beam, 100.0, 0.6);
-        assert!((w - 100.0 * 0.6f64.powi(4) / (30.0 * beam.bending_stiffness())).abs() < 1e-15);
-        // By superposition of forces: a force dP at z moves the tip by z^2 (3 H - z)/(6 EI).
-        let (n, a) = (4000, 0.4);
-        let dz = a / f64::from(n);
-        let summed: f64 = (0..n)
-            .map(|k| (f64::from(k) + 0.5) * dz)
-            .map(|z| 100.0 * (1.0 - z / a) * dz * z * z * (1.8 - z) / (6.0 * beam.bending_stiffness()))
-            .sum();
-        assert!((under_triangle(&beam, 100.0, a) / summed - 1.0).abs() < 1e-6);
     }
 }

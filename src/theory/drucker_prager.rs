@@ -67,13 +67,6 @@ pub fn plane_strain_ratio(q: f64, q_psi: f64) -> f64 {
     (1.0 + s) / (1.0 - s)
 }
 
-/// Unconfined compressive strength in plane strain, Pa (positive): 2 (k/q) sin(phi) / (1 - sin(phi)) with the angle of
-/// [`plane_strain_sine`], since the apex k/q lies where Mohr-Coulomb has c cot(phi).
-pub fn plane_strain_strength(q: f64, q_psi: f64, k: f64) -> f64 {
-    let s = plane_strain_sine(q, q_psi);
-    2.0 * k / q * s / (1.0 - s)
-}
-
 /// Shear over normal stress in simple shear at failure, q sqrt(1 - 4 q_psi^2/3) / (1 - 4 q q_psi/3): q itself at constant volume.
 ///
 /// Strain along the shear plane and out of plane vanish, so both deviators are -2/3 q_psi sqrt(J2).
@@ -158,12 +151,5 @@ mod tests {
         near(oedometric_ratio(0.3, sin(PHI)), 0.44061, 5e-6);
         near(oedometric_ratio(0.3, outer / 3.0), 0.67523, 5e-6);
         near(1.0 / oedometric_limit(outer), compression_ratio(outer), 1e-12);
-    }
-
-    #[test]
-    fn strength_without_confinement_is_mohr_coulombs() {
-        let (c, q) = (2e3, sin(PHI));
-        let k = q * c / libm::tan(PHI);
-        near(plane_strain_strength(q, 0.0, k), 2.0 * c * libm::cos(PHI) / (1.0 - sin(PHI)), 1e-9);
     }
 }

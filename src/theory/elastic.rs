@@ -53,16 +53,6 @@ pub fn confined_speed(e: &Elastic, density: f64) -> f64 {
     (e.confined() / density).sqrt()
 }
 
-/// Speed of a long wave in a strip in plane strain with free faces, sqrt(E / ((1 - nu^2) rho)), m/s.
-pub fn plate_speed(e: &Elastic, density: f64) -> f64 {
-    (e.plane_strain() / density).sqrt()
-}
-
-/// Speed of a shear wave, sqrt(G / rho), m/s.
-pub fn shear_speed(e: &Elastic, density: f64) -> f64 {
-    (e.shear() / density).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,11 +63,8 @@ mod tests {
         assert!((e.confined() - 1.346_153_846e6).abs() < 1.0);
         assert!((e.bulk() + 4.0 / 3.0 * e.shear() - e.confined()).abs() < 1e-6);
         assert!((e.lame() + 2.0 * e.shear() - e.confined()).abs() < 1e-6);
-        for (speed, known) in [(bar_speed(&e, 1500.0), 25.82), (plate_speed(&e, 1500.0), 27.07)] {
-            assert!((speed - known).abs() < 5e-3);
-        }
+        assert!((bar_speed(&e, 1500.0) - 25.82).abs() < 5e-3);
         assert!((confined_speed(&e, 1500.0) - 29.96).abs() < 5e-3);
-        assert!((shear_speed(&e, 1500.0) - 16.01).abs() < 5e-3);
         assert!((e.lateral_ratio() - 0.428_571).abs() < 1e-6);
     }
 }

@@ -36,11 +36,6 @@ pub fn stress(e: &Elastic, f: &Gradient) -> [f64; 4] {
     [(p[0] * f[0] + p[1] * f[1]) / j, (p[2] * f[2] + p[3] * f[3]) / j, p[4] / j, (p[0] * f[2] + p[1] * f[3]) / j]
 }
 
-/// Cauchy stress along a stretch without lateral strain, (mu (s^2 - 1) + lambda ln s) / s, Pa.
-pub fn confined_stress(e: &Elastic, stretch: f64) -> f64 {
-    (e.shear() * (stretch * stretch - 1.0) + e.lame() * log(stretch)) / stretch
-}
-
 /// Cauchy stress xx, yy, xy of simple shear: mu gamma^2, 0, mu gamma, Pa. The normal stress is Poynting's effect.
 pub fn simple_shear(e: &Elastic, gamma: f64) -> [f64; 3] {
     [e.shear() * gamma * gamma, 0.0, e.shear() * gamma]
@@ -60,12 +55,6 @@ pub fn free_lateral_stretch(e: &Elastic, axial: f64) -> f64 {
         }
     }
     0.5 * (low + high)
-}
-
-/// Square of the fastest wave speed along a principal direction of stretch `s` at volume ratio `j`, in m2/s2, over the grid as
-/// it is: (mu (s^2 + 1) + lambda (1 - ln J)) / rho0 (from the tangent of the law; lambda + 2 mu at rest).
-pub fn wave_speed_squared(e: &Elastic, reference_density: f64, s: f64, j: f64) -> f64 {
-    (e.shear() * (s * s + 1.0) + e.lame() * (1.0 - log(j))) / reference_density
 }
 
 #[cfg(test)]
@@ -94,7 +83,6 @@ mod tests {
     fn special_cases_follow_from_the_general_one() {
         let e = MATERIAL;
         for s in [0.5, 0.9, 1.4] {
-            assert!((stress(&e, &[s, 0.0, 0.0, 1.0])[0] - confined_stress(&e, s)).abs() < 1e-9);
             let l = free_lateral_stretch(&e, s);
             assert!(stress(&e, &[s, 0.0, 0.0, l])[1].abs() < 1e-6);
         }
@@ -111,23 +99,5 @@ mod tests {
         assert!((stress(&e, &[1.0, d, 0.0, 1.0])[3] / d - e.shear()).abs() < 10.0);
         let axial = stress(&e, &[1.0 + d, 0.0, 0.0, free_lateral_stretch(&e, 1.0 + d)]);
         assert!((axial[0] / d - e.plane_strain()).abs() < 10.0);
-        assert!((wave_speed_squared(&e, 1.0, 1.0, 1.0) - e.confined()).abs() < 1e-6);
-    }
-
-    #[test]
-    fn the_wave_speed_is_the_slope_of_the_nominal_stress() {
-        // Along a principal direction rho0 c0^2 = dP/dF on the reference body; over the grid c = s c0.
-        let (e, s, lateral) = (MATERIAL, 1.3, 0.9);
-        let p = |s: f64| nominal_stress(&e, &[s, 0.0, 0.0, lateral])[0];
-        let slope = (p(s + 1e-6) - p(s - 1e-6)) / 2e-6;
-        let c2 = wave_speed_squared(&e, 1500.0, s, s * lateral);
-        assert!((s * s * slope / 1500.0 / c2 - 1.0).abs() < 1e-6);
-        let rest = wave_speed_squared(&e, 1.0, 1.0, 1.0);
-        for (s, lateral) in
-            [(0.7, 0.7), (0.7, 1.0), (0.7, 1.3), (1.0, 0.7), (1.0, 1.3), (1.3, 0.7), (1.3, 1.0), (1.3, 1.3)]
-        {
-            let ratio = (wave_speed_squared(&e, 1.0, s, s * lateral) / rest).sqrt();
-            assert!(ratio < 1.125, "{s} {lateral}: {ratio}");
-        }
     }
 }

@@ -99,11 +99,6 @@ impl Study {
             index: [index(coarse, medium, r32), index(medium, fine, r21)],
         }
     }
-
-    /// Index of the medium grid over that of the fine one times r^p: near 1 where the values follow the order (Roache 1994).
-    pub fn asymptotic(&self, ratio: f64) -> f64 {
-        self.index[0] / (pow(ratio, self.order) * self.index[1])
-    }
 }
 
 #[cfg(test)]
@@ -117,8 +112,6 @@ mod tests {
         assert!((s.order - 1.78617).abs() < 1e-5);
         assert!((s.extrapolated - 0.97130).abs() < 1e-5);
         assert!((s.index[1] - 1.031e-3).abs() < 1e-6 && (s.index[0] - 3.562e-3).abs() < 1e-6);
-        // For equal ratios and the order of the same three values, fine over medium.
-        assert!((s.asymptotic(2.0) - 0.97050 / 0.96854).abs() < 1e-9);
     }
 
     #[test]

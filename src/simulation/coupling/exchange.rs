@@ -7,6 +7,7 @@ use crate::contact::Vector;
 use crate::contact::node;
 use crate::contact::pair::{State, Touch};
 use crate::contact::rule::{MAX_SIDES, Sides};
+use crate::contact::separation::area;
 use crate::contact::side::Side;
 use crate::momentum;
 use crate::shape::ShapeFunction;
@@ -183,6 +184,11 @@ impl Coupling {
                 nodes::visit(&mut self.holds[range(k)], boundaries, side.mass, &mut v, true);
                 side.velocity = v;
             }
+            let spacing = fields[own[0].field].grid.spacing;
+            let volume = |k: usize| {
+                let body = &fields[own[k].field].bodies[0];
+                sides[k].mass * body.point_volume / body.point_mass
+            };
             for (p, touch) in self.pending[pending].iter().zip(touches.iter()) {
                 if touch.state() != State::Apart {
                     let exchange = touch.exchange(sides);
@@ -193,6 +199,7 @@ impl Coupling {
                         x: shared.x,
                         normal: p.normal,
                         impulse,
+                        area: area(volume(touch.sides[0]), volume(touch.sides[1]), spacing),
                     });
                 }
             }

@@ -15,6 +15,7 @@ use crate::boundary::nodes::Hold;
 use crate::contact::Vector;
 use crate::contact::pair::Touch;
 use crate::contact::rule::{ContactRule, ContactTally, MAX_SIDES};
+use crate::space::{clockwise, dot};
 use std::ops::Range;
 use surface::Interface;
 
@@ -71,6 +72,18 @@ pub struct ContactPoint {
     pub normal: Vector,
     /// Impulse on the second body, N s.
     pub impulse: Vector,
+    /// Area of contact that belongs to the node, m2, see [`separation::area`](crate::contact::separation::area): the volumes there
+    /// are masses over densities in the reference state.
+    pub area: f64,
+}
+
+impl ContactPoint {
+    /// Mean traction between the bodies over a step of `dt` (s), Pa: pressure, positive where they press on each other, and shear on the
+    /// second body along the normal turned clockwise. Zero where no area belongs to the node.
+    pub fn traction(&self, dt: f64) -> [f64; 2] {
+        let per = if self.area > 0.0 { 1.0 / (self.area * dt) } else { 0.0 };
+        [dot(self.impulse, self.normal) * per, dot(self.impulse, clockwise(self.normal)) * per]
+    }
 }
 
 /// All contacts of a simulation.
