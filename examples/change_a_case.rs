@@ -39,10 +39,7 @@ fn the_force_at_rest_is_one_that_the_base_allows() {
         let deposit = summary.deposit.expect("a base is gauged");
         let force = summary.barrier.expect("a barrier is gauged").static_force_n;
         // What the wall does not hold the base has to: at most its friction.
-        let by_the_base = (deposit.weight_along_flume_n - force).abs();
-        assert!(
-            by_the_base <= 1.01 * deposit.base_friction_limit_n,
-            "{friction}: {force} N, {by_the_base} N by the base"
-        );
+        let by_the_base = (deposit.weight_along_n - force).abs();
+        assert!(by_the_base <= 1.01 * deposit.friction_limit_n, "{friction}: {force} N, {by_the_base} N by the base");
     }
 }

@@ -27,11 +27,11 @@ impl Balances {
     /// Of one run; `imbalance` as it was seen.
     pub fn of(summary: &Summary, imbalance: Option<f64>) -> Self {
         Self {
-            momentum: summary.momentum.closure_max,
-            energy: summary.energy.residual_max,
-            penetration: summary.momentum.penetration_max_m / summary.case.grid.spacing_m,
+            momentum: summary.momentum.momentum_closure_1,
+            energy: summary.energy.energy_residual_1,
+            penetration: summary.momentum.penetration_m / summary.case.grid.spacing_m,
             imbalance,
-            gap: summary.structure.as_ref().map(|s| s.gap_max_cells),
+            gap: summary.structure.as_ref().map(|s| s.gap_cells),
         }
     }
 

@@ -62,26 +62,26 @@ fn report(summary: &Summary, directory: &Path) {
             f.time_s,
             f.velocity_m_per_s,
             f.depth_m,
-            f.froude
+            f.froude_1
         );
     }
     if let Some(b) = &summary.barrier {
-        if let Some(t) = b.arrival_time_s {
+        if let Some(t) = b.arrival_s {
             say!("  arrival at the barrier: t = {t:.3} s");
         }
         say!(
             "  peak force: {:.1} N in a single step (t = {:.4} s), {:.1} N over 20 ms (t = {:.3} s)",
-            b.peak_force_step_n,
-            b.peak_force_step_time_s,
-            b.peak_force_20ms_n,
-            b.peak_force_20ms_time_s
+            b.peak_step_n,
+            b.peak_step_time_s,
+            b.peak_20ms_n,
+            b.peak_20ms_time_s
         );
         say!(
             "  static force: {:.1} N (from the stress of 1, 2, 3 layers: {:.1}, {:.1}, {:.1} N), acting {:.3} m above the foot",
             b.static_force_n,
-            b.static_force_layers_n[0],
-            b.static_force_layers_n[1],
-            b.static_force_layers_n[2],
+            b.static_layer1_n,
+            b.static_layer2_n,
+            b.static_layer3_n,
             b.static_height_of_action_m
         );
         say!("  run-up: {:.3} m; over the barrier: {:.4} kg", b.run_up_m, b.overtopped_kg);
@@ -89,25 +89,25 @@ fn report(summary: &Summary, directory: &Path) {
     if let Some(d) = &summary.deposit {
         say!(
             "  at the end: m g sin = {:.1} N, base friction {:.1} of +-{:.1} N (mobilised share {:.2}); equilibrium allows {:.1} to {:.1} N",
-            d.weight_along_flume_n,
+            d.weight_along_n,
             d.base_friction_n,
-            d.base_friction_limit_n,
-            d.mobilised_share,
-            d.friction_limits_n[0],
-            d.friction_limits_n[1]
+            d.friction_limit_n,
+            d.mobilised_1,
+            d.equilibrium_limits_n[0],
+            d.equilibrium_limits_n[1]
         );
     }
     let e = &summary.energy;
     say!(
         "  energy: E0 = {:.1} J; {:.1} % gravitational, {:.1} % plastic, {:.1} % friction at the end; residual {:.3} % (largest {:.3} %)",
         e.initial_j,
-        100.0 * e.gravitational,
-        100.0 * e.plastic,
-        100.0 * e.friction,
-        100.0 * e.residual,
-        100.0 * e.residual_max
+        100.0 * e.gravitational_1,
+        100.0 * e.plastic_1,
+        100.0 * e.friction_1,
+        100.0 * e.residual_end_1,
+        100.0 * e.energy_residual_1
     );
-    say!("  momentum closes to {:.1e} of all impulses", summary.momentum.closure_max);
+    say!("  momentum closes to {:.1e} of all impulses", summary.momentum.momentum_closure_1);
     for warning in &summary.warnings {
         say!("  note: {warning}");
     }

@@ -10,26 +10,31 @@ const IMPACT_WINDOW: f64 = 0.5;
 
 /// Forces on the barrier.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct BarrierResults {
     /// First time at which the normal force exceeds 0.5 N, s; absent if the flow did not arrive.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub arrival_time_s: Option<f64>,
+    pub arrival_s: Option<f64>,
     /// Largest normal force of a single step, N.
-    pub peak_force_step_n: f64,
+    pub peak_step_n: f64,
     /// Its time, s.
-    pub peak_force_step_time_s: f64,
+    pub peak_step_time_s: f64,
     /// Largest mean normal force over 20 ms, N.
-    pub peak_force_20ms_n: f64,
+    pub peak_20ms_n: f64,
     /// Middle of that interval, s.
-    pub peak_force_20ms_time_s: f64,
+    pub peak_20ms_time_s: f64,
     /// Mean normal force over the last 0.3 s, N.
     pub static_force_n: f64,
     /// Mean force along the barrier's face over the last 0.3 s, N; negative when the material drags it down.
     pub static_shear_n: f64,
     /// Change of the normal force from the first to the last third of these 0.3 s, N.
     pub static_force_drift_n: f64,
-    /// The same force from the stress of the nearest 1, 2, 3 layers of material points, N.
-    pub static_force_layers_n: [f64; 3],
+    /// The same force from the stress of the nearest layer of material points, N.
+    pub static_layer1_n: f64,
+    /// The same force from the stress of the nearest two layers, N.
+    pub static_layer2_n: f64,
+    /// The same force from the stress of the nearest three layers, N.
+    pub static_layer3_n: f64,
     /// Base shear at the foot: the static normal force, N.
     pub base_shear_n: f64,
     /// Mean overturning moment about the foot over the last 0.3 s, N m.
@@ -37,7 +42,7 @@ pub struct BarrierResults {
     /// Height above the foot at which the static force acts, m.
     pub static_height_of_action_m: f64,
     /// Largest overturning moment of a single step, N m.
-    pub peak_moment_step_n_m: f64,
+    pub peak_moment_n_m: f64,
     /// When the mean over 20 ms comes within 5 % of the static force to stay there, s after release.
     pub time_to_static_s: f64,
     /// Impulse of the normal force in the first 0.5 s after arrival, N s.
@@ -61,20 +66,22 @@ pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow]) -> Option<Ba
     let peak = smoothed_peak(history);
     let arrival = arrival(history);
     Some(BarrierResults {
-        arrival_time_s: arrival,
-        peak_force_step_n: gauge.peak_force().value,
-        peak_force_step_time_s: gauge.peak_force().time,
-        peak_force_20ms_n: peak.0,
-        peak_force_20ms_time_s: peak.1,
+        arrival_s: arrival,
+        peak_step_n: gauge.peak_force().value,
+        peak_step_time_s: gauge.peak_force().time,
+        peak_20ms_n: peak.0,
+        peak_20ms_time_s: peak.1,
         static_force_n: static_force,
         static_shear_n: late(|r| r.tangential),
         static_force_drift_n: late_mean(history, 2.0 / 3.0, 1.0, |r| r.normal)
             - late_mean(history, 0.0, 1.0 / 3.0, |r| r.normal),
-        static_force_layers_n: [late(|r| r.layers[0]), late(|r| r.layers[1]), late(|r| r.layers[2])],
+        static_layer1_n: late(|r| r.layers[0]),
+        static_layer2_n: late(|r| r.layers[1]),
+        static_layer3_n: late(|r| r.layers[2]),
         base_shear_n: static_force,
         static_moment_n_m: static_moment,
         static_height_of_action_m: if static_force > 0.0 { static_moment / static_force } else { 0.0 },
-        peak_moment_step_n_m: gauge.peak_moment().value,
+        peak_moment_n_m: gauge.peak_moment().value,
         time_to_static_s: time_to_static(history, static_force),
         impulse_half_second_n_s: arrival.map_or(0.0, |t| impulse(history, t, t + IMPACT_WINDOW)),
         impulse_normal_n_s: gauge.total_impulse()[0],
@@ -90,7 +97,7 @@ impl BarrierResults {
         if self.overtopped_kg > 0.0 {
             warn(format!("{:.4} kg went over {name}", self.overtopped_kg));
         }
-        if self.arrival_time_s.is_none() {
+        if self.arrival_s.is_none() {
             warn(format!("the flow did not reach {name}"));
         }
     }

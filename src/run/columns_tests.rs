@@ -1,3 +1,4 @@
+use super::super::table::Names;
 use super::*;
 
 /// What a name ends in for a unit.

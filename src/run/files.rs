@@ -5,19 +5,21 @@
 //! on the wall clock, the number of threads or the place of the folder: the same case gives the same bytes.
 
 use super::ProgressFn;
-use super::columns::{self, Names, OpenTable, TableKind};
-use super::experiment::{Experiment, RunError};
-use super::gauges::{Barrier, PeakProfile};
+use super::columns;
+use super::experiment::Experiment;
+use super::figures::draw_figures;
+use super::gauges::{Barrier, PeakProfile, suffix};
+pub use super::outlines::outlines;
+use super::outlines::{write_geometry_table, write_geometry_vtk};
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
+use super::stage::RunError;
 use super::summary::Summary;
-use crate::boundary::{Boundary, Solid};
+use super::table::{Names, OpenTable, TableKind};
 use crate::case::{Case, file_name};
 use crate::gauge::StructureSample;
 use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
-use crate::output::{self, Field, OutputError, Polyline, PvdWriter, Table, Values};
-use crate::plot::curves::{Curve, Curves};
-use crate::plot::{self, PlotError, force_time::ReferenceLine};
+use crate::output::{self, Field, OutputError, PvdWriter, Values};
 use crate::simulation::Simulation;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -83,93 +85,6 @@ pub fn run_into(
     drawn?;
     Ok((experiment, records, summary))
 }
-
-/// Draws all figures of a run from its tables, leaving out those whose table has no row yet. All of them are tried, also when one
-/// fails.
-fn draw_figures(case: &Case, directory: &Path, experiment: &Experiment, summary: &Summary) -> Result<(), PlotError> {
-    let at = |name: &str| directory.join(name);
-    let has_rows = |name: &str| !Table::load(at(name)).is_ok_and(|table| table.rows() == 0);
-    let mut results = Vec::new();
-    for (k, barrier) in experiment.barriers().iter().enumerate() {
-        results.extend(draw_barrier(
-            directory,
-            &suffix(barrier, k),
-            barrier,
-            if k == 0 { Some(summary) } else { None },
-        ));
-    }
-    if summary.energy.initial_j > 0.0 && has_rows("energy.csv") {
-        results.push(plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg")));
-    }
-    if !case.gauges.field_times_s.is_empty() && has_rows("field.csv") {
-        let bends = experiment.barriers().iter().enumerate().find(|(_, b)| b.structure().is_some());
-        let outline = bends.map(|(k, b)| at(&format!("barrier_outline{}.csv", suffix(b, k))));
-        let (field, geometry, out) = (at("field.csv"), at("geometry.csv"), at("flow_snapshots.svg"));
-        let (shown, inclination) = (&plot::flow_snapshots::Shown::SPEED, case.gravity.inclination_deg);
-        let drawn =
-            plot::flow_snapshots::draw_with_barrier(field, shown, geometry, outline.as_deref(), inclination, out);
-        results.push(drawn);
-    }
-    results.into_iter().collect()
-}
-
-/// Draws the figures of a barrier from its tables. The force that it would take at least is known of the first, with its `summary`.
-fn draw_barrier(
-    directory: &Path,
-    suffix: &str,
-    barrier: &Barrier,
-    summary: Option<&Summary>,
-) -> Vec<Result<(), PlotError>> {
-    let at = |name: &str, kind: &str| directory.join(format!("{name}{suffix}.{kind}"));
-    let has_rows = |name: &str| !Table::load(at(name, "csv")).is_ok_and(|table| table.rows() == 0);
-    let mut results = Vec::new();
-    if barrier.structure().is_some() && has_rows("barrier") {
-        results.push(plot::curves::draw(at("barrier", "csv"), &BARRIER_FORCES, at("barrier_forces", "svg")));
-    }
-    if !barrier.peak_profile().points.is_empty() {
-        let (table, figure) = (at("barrier_profile_at_peak", "csv"), at("barrier_deflection", "svg"));
-        results.push(plot::curves::draw(table, &PEAK_DEFLECTION, figure));
-    }
-    if has_rows("history") {
-        let deposit = summary.and_then(|s| s.deposit.as_ref());
-        let value = deposit.map(|d| d.theoretical_static_force_n).filter(|f| f.is_finite());
-        let label = "weight less full base friction\nm g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})";
-        let lines: Vec<_> = value.map(|v| ReferenceLine::new(label, v)).into_iter().collect();
-        results.push(plot::force_time::draw(at("history", "csv"), &lines, at("force_time", "svg")));
-    }
-    if has_rows("pressure_profile") {
-        let (table, figure) = (at("pressure_profile", "csv"), at("pressure_profile", "svg"));
-        results.push(plot::pressure_profile::draw(table, figure));
-    }
-    results
-}
-
-/// What follows in the names of a barrier's files, by its number: nothing for the first, else its name.
-fn suffix(barrier: &Barrier, number: usize) -> String {
-    if number == 0 { String::new() } else { format!("_{}", file_name(barrier.name())) }
-}
-
-/// Force on a barrier that is a body: what contact gives, what the clamp takes, what is left as momentum.
-const BARRIER_FORCES: Curves = Curves {
-    x: "time_s",
-    x_title: "time (s)",
-    y_title: "force against the face (N)",
-    curves: &[
-        Curve { column: "contact_normal_n", label: "contact with the flow", exact: false },
-        Curve { column: "clamp_normal_n", label: "clamp", exact: false },
-        Curve { column: "inertia_normal_n", label: "rate of momentum", exact: false },
-    ],
-    ..Curves::LINEAR
-};
-
-/// Its face, bent.
-const PEAK_DEFLECTION: Curves = Curves {
-    x: "deflection_m",
-    x_title: "deflection at the largest force (m)",
-    y_title: "height above the foot (m)",
-    curves: &[Curve { column: "height_m", label: "", exact: false }],
-    ..Curves::LINEAR
-};
 
 /// How a barrier that is a body was bent at its largest force.
 fn write_peak_profile(directory: &Path, suffix: &str, peak: &PeakProfile) -> Result<(), OutputError> {
@@ -401,59 +316,4 @@ impl Recorder for Folder {
         self.frame_count += 1;
         Ok(())
     }
-}
-
-/// Outlines of the boundaries that stay, planes cut to a strip two cells thick along the domain.
-pub fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
-    let fixed = |b: &&Boundary| b.opening.is_none();
-    simulation
-        .boundaries()
-        .iter()
-        .enumerate()
-        .filter(|(_, b)| fixed(b))
-        .map(|(index, b)| {
-            let (foot, n, t) = (b.foot(), b.normal, b.tangent);
-            let corners = match b.solid {
-                Solid::HalfSpace { .. } => {
-                    let depth = 2.0 * simulation.spacing();
-                    let [xs, ys] = simulation.domain();
-                    let along: Vec<f64> = [[xs[0], ys[0]], [xs[1], ys[0]], [xs[0], ys[1]], [xs[1], ys[1]]]
-                        .iter()
-                        .filter(|c| b.depth(**c) >= 0.0)
-                        .map(|c| b.face_coordinates(*c).1)
-                        .collect();
-                    let low = along.iter().fold(f64::INFINITY, |a, s| a.min(*s));
-                    let high = along.iter().fold(f64::NEG_INFINITY, |a, s| a.max(*s));
-                    if low >= high {
-                        return (index, Vec::new());
-                    }
-                    vec![foot + t * low, foot + t * high, foot + t * high - n * depth, foot + t * low - n * depth]
-                }
-                Solid::Slab { height, thickness, .. } => {
-                    vec![foot, foot + t * height, foot + t * height - n * thickness, foot - n * thickness]
-                }
-            };
-            (index, corners.into_iter().map(Into::into).collect())
-        })
-        .filter(|(_, corners): &(usize, Vec<[f64; 2]>)| !corners.is_empty())
-        .collect()
-}
-
-fn write_geometry_table(directory: &Path, simulation: &Simulation) -> Result<(), OutputError> {
-    let mut table = OpenTable::create(&columns::GEOMETRY, &directory.join("geometry.csv"), Names::default())?;
-    for (index, corners) in outlines(simulation) {
-        for c in corners {
-            table.row(&[index as f64, c[0], c[1]])?;
-        }
-    }
-    table.finish()
-}
-
-fn write_geometry_vtk(directory: &Path, simulation: &Simulation) -> Result<(), OutputError> {
-    let outlines = outlines(simulation);
-    let lines: Vec<Polyline> = outlines
-        .iter()
-        .map(|(index, corners)| Polyline { boundary: *index as i64, points_m: corners, closed: true })
-        .collect();
-    output::write_polylines(directory.join("vtk").join("boundaries.vtp"), &lines)
 }

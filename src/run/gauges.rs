@@ -2,7 +2,7 @@
 
 use super::records::HistoryRow;
 use super::scene;
-use crate::case::Case;
+use crate::case::{Case, file_name};
 use crate::gauge::structure::ProfilePoint;
 use crate::gauge::{BarrierGauge, BaseGauge, ForceSample, StructureGauge, StructureSample, flow, layers};
 use crate::simulation::Simulation;
@@ -200,6 +200,11 @@ fn structure(case: &Case, simulation: &Simulation, name: &str) -> Option<Structu
     let b = &case.bodies[body];
     let counts = b.particle_counts(&case.grid).map(|n| n as usize);
     Some(StructureGauge::new(simulation, body, face, counts, b.rotation_deg.to_radians()))
+}
+
+/// What follows in the names of a barrier's files, by its number: nothing for the first, else its name.
+pub(super) fn suffix(barrier: &Barrier, number: usize) -> String {
+    if number == 0 { String::new() } else { format!("_{}", file_name(barrier.name())) }
 }
 
 #[cfg(test)]

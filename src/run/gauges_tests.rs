@@ -132,6 +132,6 @@ fn a_further_barrier_has_files_of_its_own() {
     let summary: toml::Table = std::fs::read_to_string(two.join("summary.toml")).expect("text").parse().expect("TOML");
     let further = &summary["further_barriers"][0];
     assert_eq!(further["name"].as_str(), Some("The wall"));
-    assert!(further["barrier"]["peak_force_step_n"].as_float() > Some(10.0), "{further}");
+    assert!(further["barrier"]["peak_step_n"].as_float() > Some(10.0), "{further}");
     assert_eq!(summary["case"]["gauges"]["barriers"].as_array().map(Vec::len), Some(2));
 }

@@ -4,22 +4,30 @@
 //! what stands in each column of a table; [`files`]
 //! writes it down; [`summary`] draws the conclusions.
 
+mod balances;
 mod barrier;
 mod columns;
+mod deposit;
 mod experiment;
+mod figures;
 pub mod files;
 mod gauges;
 mod means;
+mod outlines;
 pub mod records;
 mod rest;
 pub mod scene;
+mod stage;
 pub mod structure;
 pub(crate) mod summary;
+mod table;
 
-pub use columns::{ColumnText, TableText, columns};
-pub use experiment::{Experiment, Progress, RunError, Stage};
+pub use columns::columns;
+pub use experiment::Experiment;
 pub use records::{Recorder, Records};
+pub use stage::{Progress, RunError, Stage};
 pub use summary::Summary;
+pub use table::{ColumnText, TableText};
 
 use crate::case::Case;
 use std::path::Path;

@@ -21,48 +21,49 @@ const UNLOADED: f64 = 1e-9;
 
 /// A barrier that is a body: how it bends, what its clamp carries, whether it holds together.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct StructureResults {
     /// Height of the face above the foot, m.
     pub height_m: f64,
     /// Largest of the samples of the contact force that are the first at or after whole multiples of 20 ms, N: what an
     /// archive of that interval shows of the peak.
-    pub peak_force_50hz_n: f64,
+    pub peak_50hz_n: f64,
     /// Share of the energy at release that was kinetic when the energies were first recorded after the flow arrived, up
     /// to 10 ms later.
-    pub kinetic_at_arrival: f64,
+    pub arrival_kinetic_1: f64,
     /// Share of the energy at release that was gone by that record.
-    pub dissipated_at_arrival: f64,
+    pub arrival_dissipated_1: f64,
     /// Largest deflection of the tip away from the material at any time, m.
-    pub tip_deflection_max_m: f64,
+    pub tip_max_m: f64,
     /// Largest deflection anywhere on the face when the mean force of a sample was largest, m.
-    pub deflection_at_peak_m: f64,
+    pub peak_deflection_m: f64,
     /// Its height above the foot, m.
-    pub deflection_at_peak_height_m: f64,
+    pub peak_deflection_height_m: f64,
     /// Largest velocity away from the material anywhere on the face at that time, m/s.
-    pub velocity_at_peak_m_per_s: f64,
+    pub peak_barrier_velocity_m_per_s: f64,
     /// Mean deflection of the tip over the last 0.3 s, m.
-    pub tip_deflection_final_m: f64,
+    pub tip_final_m: f64,
     /// The same over the height.
-    pub tip_deflection_final_share: f64,
+    pub tip_final_1: f64,
     /// Largest force on the clamp in a single step, N.
-    pub peak_clamp_force_step_n: f64,
+    pub peak_clamp_n: f64,
     /// Its time, s.
-    pub peak_clamp_force_step_time_s: f64,
+    pub peak_clamp_time_s: f64,
     /// Mean force on the clamp against the face over the last 0.3 s, N.
-    pub clamp_normal_final_n: f64,
+    pub static_clamp_n: f64,
     /// Mean moment about the foot on the clamp over the last 0.3 s, N m.
-    pub clamp_moment_final_n_m: f64,
+    pub static_clamp_moment_n_m: f64,
     /// Largest magnitude, over all samples, of contact force less clamp reaction and rate of momentum, over the sum of
     /// theirs. Samples in which these forces are less than a billionth of the run's largest are left out.
-    pub imbalance_max: f64,
+    pub imbalance_1: f64,
     /// Deepest that the domain of a point of the flow lay inside the barrier, m.
     pub penetration_max_m: f64,
     /// Widest gap between neighbouring points of the barrier beyond what its stretch explains, cells.
-    pub gap_max_cells: f64,
+    pub gap_cells: f64,
     /// When, s.
-    pub gap_max_time_s: f64,
+    pub gap_time_s: f64,
     /// Where, as height above the foot at the start, m.
-    pub gap_max_height_m: f64,
+    pub gap_height_m: f64,
     /// Whether the barrier has torn: a gap of a quarter of a cell or more. What is read after that means nothing.
     pub torn: bool,
 }
@@ -89,24 +90,24 @@ pub(super) fn results(barrier: &Barrier, records: &Records, energy: &[EnergyRow]
     let share = |value: fn(&EnergyBalance) -> f64| arrived.as_ref().map_or(f64::NAN, |b| value(b) / b.initial);
     Some(StructureResults {
         height_m: height,
-        peak_force_50hz_n: archived_peak(&records.history),
-        kinetic_at_arrival: share(|b| b.kinetic),
-        dissipated_at_arrival: share(|b| b.initial - b.kinetic - b.gravitational - b.elastic),
-        tip_deflection_max_m: largest(|s| s.bend.tip),
-        deflection_at_peak_m: bent.0,
-        deflection_at_peak_height_m: bent.1,
-        velocity_at_peak_m_per_s: peak.iter().map(|p| p.velocity).fold(0.0, f64::max),
-        tip_deflection_final_m: tip,
-        tip_deflection_final_share: tip / height,
-        peak_clamp_force_step_n: clamp.value,
-        peak_clamp_force_step_time_s: clamp.time,
-        clamp_normal_final_n: mean(|s| s.clamp.normal),
-        clamp_moment_final_n_m: mean(|s| s.clamp_moment),
-        imbalance_max: imbalance(samples),
+        peak_50hz_n: archived_peak(&records.history),
+        arrival_kinetic_1: share(|b| b.kinetic),
+        arrival_dissipated_1: share(|b| b.initial - b.kinetic - b.gravitational - b.elastic),
+        tip_max_m: largest(|s| s.bend.tip),
+        peak_deflection_m: bent.0,
+        peak_deflection_height_m: bent.1,
+        peak_barrier_velocity_m_per_s: peak.iter().map(|p| p.velocity).fold(0.0, f64::max),
+        tip_final_m: tip,
+        tip_final_1: tip / height,
+        peak_clamp_n: clamp.value,
+        peak_clamp_time_s: clamp.time,
+        static_clamp_n: mean(|s| s.clamp.normal),
+        static_clamp_moment_n_m: mean(|s| s.clamp_moment),
+        imbalance_1: imbalance(samples),
         penetration_max_m: largest(|s| s.survey.penetration),
-        gap_max_cells: widest.1.bend.gap,
-        gap_max_time_s: widest.0,
-        gap_max_height_m: widest.1.bend.gap_at,
+        gap_cells: widest.1.bend.gap,
+        gap_time_s: widest.0,
+        gap_height_m: widest.1.bend.gap_at,
         torn: widest.1.bend.gap >= TORN,
     })
 }
@@ -127,13 +128,13 @@ impl StructureResults {
             warn(format!(
                 "{name} has torn numerically: {:.3} s after release its points were {:.2} cells too far apart {:.3} m above \
                  its foot; forces and deflections after that mean nothing (finer cells, or a stiffer barrier)",
-                self.gap_max_time_s, self.gap_max_cells, self.gap_max_height_m
+                self.gap_time_s, self.gap_cells, self.gap_height_m
             ));
         }
-        if self.imbalance_max > BALANCED {
+        if self.imbalance_1 > BALANCED {
             warn(format!(
                 "contact, clamp and inertia of {name} miss each other by {:.1e} of their sum",
-                self.imbalance_max
+                self.imbalance_1
             ));
         }
     }

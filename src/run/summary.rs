@@ -1,17 +1,20 @@
 //! What a run says: inputs resolved, results, ledgers, warnings.
 
-use super::barrier;
+pub use super::balances::{EnergyResults, MomentumResults};
 pub use super::barrier::BarrierResults;
-use super::experiment::{End, Experiment};
-use super::means::{STATIC_WINDOW, arrival, late_mean};
-use super::records::{HistoryRow, MomentumRow, Records};
+pub use super::deposit::DepositResults;
+use super::experiment::Experiment;
+use super::means::arrival;
+use super::records::{HistoryRow, Records};
+use super::stage::End;
 use super::structure::{self, StructureResults};
-use crate::boundary::Friction;
+use super::{balances, barrier, deposit};
 use crate::case::Case;
 use serde::Serialize;
 
-/// Everything worth knowing about a run; written as `summary.toml`.
+/// Everything worth knowing about a run; written as `summary.toml`. A number that a study's `runs.csv` has as well has the same name there.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Summary {
     /// How the run ended.
     pub status: String,
@@ -39,12 +42,13 @@ pub struct Summary {
     pub momentum: MomentumResults,
     /// The front as it passes the stations and reaches the barrier.
     pub front: Vec<FrontPassage>,
-    /// The case with every default filled in.
+    /// The case with every default filled in; its keys are those of a case file.
     pub case: Case,
 }
 
 /// Discretisation and stepping.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Stepping {
     /// Material points at the start.
     pub particles: usize,
@@ -57,7 +61,7 @@ pub struct Stepping {
     /// Residual at release: rms speed / sqrt(g x height).
     pub settle_residual: f64,
     /// End of the run, s after release.
-    pub end_time_s: f64,
+    pub end_s: f64,
     /// Steps after release.
     pub run_steps: u64,
     /// Shortest time step after release, s.
@@ -73,6 +77,7 @@ pub struct Stepping {
 
 /// A barrier that is not the first.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FurtherBarrier {
     /// Its name in the case.
     pub name: String,
@@ -84,75 +89,9 @@ pub struct FurtherBarrier {
     pub structure: Option<StructureResults>,
 }
 
-/// Equilibrium along the flume at the end: weight, base friction, barrier.
-#[derive(Debug, Clone, Serialize)]
-pub struct DepositResults {
-    /// m g sin of what lies on the base, N.
-    pub weight_along_flume_n: f64,
-    /// m g (sin - mu cos): base friction fully mobilised up the flume, nothing on the barrier's face, N.
-    pub theoretical_static_force_n: f64,
-    /// Mean normal force of the base over the last 0.3 s, N.
-    pub base_normal_n: f64,
-    /// Mean friction of the base on the material, N; negative: up the flume.
-    pub base_friction_n: f64,
-    /// Friction that the base could give, mu N, N.
-    pub base_friction_limit_n: f64,
-    /// Share of it that is mobilised, -1 (up the flume, relieving the barrier) to 1 (down the flume, loading it).
-    pub mobilised_share: f64,
-    /// Least and greatest force along the flume that equilibrium allows: m g sin -/+ mu N.
-    pub friction_limits_n: [f64; 2],
-    /// Mean force that the material exerts along the flume on all boundaries but the base over the last 0.3 s, N.
-    pub held_along_flume_n: f64,
-    /// Weight plus base friction less what is held, N: zero at rest.
-    pub equilibrium_residual_n: f64,
-}
-
-/// Energy at the end, as shares of the energy at release.
-#[derive(Debug, Clone, Serialize)]
-pub struct EnergyResults {
-    /// Kinetic, gravitational (above the barrier's foot) and elastic energy at release, J.
-    pub initial_j: f64,
-    /// Kinetic.
-    pub kinetic: f64,
-    /// Gravitational.
-    pub gravitational: f64,
-    /// Elastic.
-    pub elastic: f64,
-    /// Plastic.
-    pub plastic: f64,
-    /// Friction on the boundaries.
-    pub friction: f64,
-    /// Normal impact on the boundaries.
-    pub contact: f64,
-    /// PIC share of the velocity update.
-    pub pic: f64,
-    /// Side walls.
-    pub side_walls: f64,
-    /// Carried out of the domain.
-    pub outflow: f64,
-    /// Not accounted for, at the end.
-    pub residual: f64,
-    /// Not accounted for, largest magnitude at any time.
-    pub residual_max: f64,
-    /// Largest kinetic share at any time.
-    pub kinetic_max: f64,
-}
-
-/// Momentum at the end.
-#[derive(Debug, Clone, Serialize)]
-pub struct MomentumResults {
-    /// Sum of the magnitudes of all impulses, N s.
-    pub impulse_scale_n_s: f64,
-    /// Largest residual at any time over that scale.
-    pub closure_max: f64,
-    /// Mass that left the domain, kg.
-    pub outflow_kg: f64,
-    /// Deepest that any point lay inside a boundary, or inside a barrier that is a body, m.
-    pub penetration_max_m: f64,
-}
-
 /// The front at a place.
 #[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct FrontPassage {
     /// Where, m.
     pub x_m: f64,
@@ -163,7 +102,7 @@ pub struct FrontPassage {
     /// Largest depth in its first 0.1 m, m.
     pub depth_m: f64,
     /// velocity / sqrt(g depth cos).
-    pub froude: f64,
+    pub froude_1: f64,
 }
 
 impl Summary {
@@ -197,9 +136,9 @@ impl Summary {
             barrier: experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history)),
             structure: experiment.barriers().first().and_then(|b| structure::results(b, records, &records.energy)),
             further_barriers: further_barriers(experiment, records),
-            deposit: deposit(experiment, records),
-            energy: energy(records),
-            momentum: momentum(records),
+            deposit: deposit::results(experiment, records),
+            energy: balances::energy(records),
+            momentum: balances::momentum(records),
             front: passages(case, records),
             case: case.clone(),
         };
@@ -218,19 +157,19 @@ impl Summary {
         let sim = experiment.simulation();
         let h = sim.spacing();
         let mut warn = |text: String| self.warnings.push(text);
-        if self.energy.residual_max.abs() > 0.02 {
+        if self.energy.energy_residual_1.abs() > 0.02 {
             warn(format!(
                 "energy does not close: {:.2} % of E0 is not accounted for",
-                100.0 * self.energy.residual_max
+                100.0 * self.energy.energy_residual_1
             ));
         }
-        if self.momentum.closure_max > 1e-10 {
-            warn(format!("momentum does not close: {:.1e} of all impulses", self.momentum.closure_max));
+        if self.momentum.momentum_closure_1 > 1e-10 {
+            warn(format!("momentum does not close: {:.1e} of all impulses", self.momentum.momentum_closure_1));
         }
-        if self.momentum.penetration_max_m > h {
+        if self.momentum.penetration_m > h {
             warn(format!(
                 "material lay {:.1} cells deep inside a boundary or the barrier",
-                self.momentum.penetration_max_m / h
+                self.momentum.penetration_m / h
             ));
         }
         if self.momentum.outflow_kg > 0.0 {
@@ -253,14 +192,14 @@ impl Summary {
             further.structure.iter().for_each(|s| s.warn(&name, &mut warn));
         }
         if let Some(d) = &self.deposit
-            && d.mobilised_share.abs() < 0.9
+            && d.mobilised_1.abs() < 0.9
         {
             warn(format!(
                 "the base mobilises {:.0} % of its friction at rest: any force between {:.1} and {:.1} N is in equilibrium, \
                  and which one it is depends on the history",
-                100.0 * d.mobilised_share,
-                d.friction_limits_n[0],
-                d.friction_limits_n[1]
+                100.0 * d.mobilised_1,
+                d.equilibrium_limits_n[0],
+                d.equilibrium_limits_n[1]
             ));
         }
     }
@@ -275,7 +214,7 @@ fn stepping(experiment: &Experiment) -> Stepping {
         settle_time_s: facts.settle_time,
         settle_steps: facts.settle_steps,
         settle_residual: facts.settle_residual,
-        end_time_s: facts.end_time.max(sim.time()),
+        end_s: facts.end_time.max(sim.time()),
         run_steps: facts.run_steps,
         time_step_min_s: if facts.run_steps > 0 { facts.time_step[0] } else { 0.0 },
         time_step_max_s: facts.time_step[1],
@@ -294,108 +233,6 @@ fn further_barriers(experiment: &Experiment, records: &Records) -> Vec<FurtherBa
     results.collect()
 }
 
-fn deposit(experiment: &Experiment, records: &Records) -> Option<DepositResults> {
-    let sim = experiment.simulation();
-    let base = &sim.boundaries()[experiment.base()?];
-    let Friction::Coulomb(mu) = base.friction else { return None };
-    let last = records.history.last()?;
-    let g = sim.gravity();
-    let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
-    let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
-    // What lies behind the barrier rests on the base, too, but does not push.
-    let structures = experiment.structures();
-    let barrier = experiment.barrier()?.boundary();
-    let departed = barrier.map_or(sim.ledger().departed_mass, |b| sim.ledger().departed_behind[b]);
-    let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - (last.overtopped - departed);
-    let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
-    let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
-    let weight = mass * along;
-    let limit = mu * base_normal;
-    // What the other boundaries and bodies take, from the ledger: the barrier, and whatever else the deposit leans on. What clamps
-    // do to a barrier that is a body is no concern of the deposit.
-    let end = records.momentum.last()?;
-    let start = records.momentum.iter().find(|r| r.time >= end.time - STATIC_WINDOW)?;
-    let base_index = experiment.base()?;
-    let own = |b: usize| b == base_index || structures.iter().any(|s| sim.boundaries()[b].bodies == [*s]);
-    let push = |row: &MomentumRow| -> f64 {
-        let along = |p: [f64; 2]| p[0] * base.tangent.x + p[1] * base.tangent.y;
-        let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| !own(*b));
-        let contacts = row.ledger.contacts.iter().zip(sim.contacts()).map(|(tally, rule)| {
-            let sign = rule.bodies.map(|b| f64::from(u8::from(structures.contains(&b))));
-            (sign[0] - sign[1]) * along(tally.exchange.impulse)
-        });
-        others.map(|(_, t)| along(t.impulse)).sum::<f64>() + contacts.sum::<f64>()
-    };
-    let held = -(push(end) - push(start)) / (end.time - start.time).max(f64::MIN_POSITIVE);
-    Some(DepositResults {
-        weight_along_flume_n: weight,
-        theoretical_static_force_n: mass * (along - mu * across),
-        base_normal_n: base_normal,
-        base_friction_n: base_friction,
-        base_friction_limit_n: limit,
-        mobilised_share: if limit > 0.0 { base_friction / limit } else { 0.0 },
-        friction_limits_n: [weight - limit, weight + limit],
-        held_along_flume_n: held,
-        equilibrium_residual_n: weight + base_friction - held,
-    })
-}
-
-fn energy(records: &Records) -> EnergyResults {
-    let mut results = EnergyResults {
-        initial_j: 0.0,
-        kinetic: 0.0,
-        gravitational: 0.0,
-        elastic: 0.0,
-        plastic: 0.0,
-        friction: 0.0,
-        contact: 0.0,
-        pic: 0.0,
-        side_walls: 0.0,
-        outflow: 0.0,
-        residual: 0.0,
-        residual_max: 0.0,
-        kinetic_max: 0.0,
-    };
-    let Some(last) = records.energy.last() else { return results };
-    let e = &last.balance;
-    results.initial_j = e.initial;
-    if e.initial == 0.0 {
-        return results;
-    }
-    let share = |x: f64| x / e.initial;
-    results.kinetic = share(e.kinetic);
-    results.gravitational = share(e.gravitational);
-    results.elastic = share(e.elastic);
-    results.plastic = share(e.plastic);
-    results.friction = share(e.friction.iter().sum());
-    results.contact = share(e.contact.iter().sum());
-    results.pic = share(e.pic);
-    results.side_walls = share(e.side_walls);
-    results.outflow = share(e.outflow);
-    results.residual = share(e.residual);
-    let largest = |value: fn(&crate::ledger::EnergyBalance) -> f64| {
-        records.energy.iter().map(|r| share(value(&r.balance)).abs()).fold(0.0, f64::max)
-    };
-    results.residual_max = largest(|b| b.residual);
-    results.kinetic_max = largest(|b| b.kinetic);
-    results
-}
-
-fn momentum(records: &Records) -> MomentumResults {
-    let last = records.momentum.last();
-    MomentumResults {
-        impulse_scale_n_s: last.map_or(0.0, |r| r.ledger.impulse_scale),
-        closure_max: records
-            .momentum
-            .iter()
-            .filter(|r| r.ledger.impulse_scale > 0.0)
-            .map(super::records::MomentumRow::closure)
-            .fold(0.0, f64::max),
-        outflow_kg: last.map_or(0.0, |r| r.ledger.departed_mass),
-        penetration_max_m: records.history.iter().map(|r| r.penetration).fold(0.0, f64::max),
-    }
-}
-
 fn passages(case: &Case, records: &Records) -> Vec<FrontPassage> {
     let g = case.gravity.magnitude_m_per_s2 * libm::cos(case.gravity.inclination_deg.to_radians());
     let at = |row: &HistoryRow, x: f64| FrontPassage {
@@ -403,7 +240,7 @@ fn passages(case: &Case, records: &Records) -> Vec<FrontPassage> {
         time_s: row.time,
         velocity_m_per_s: row.front.velocity,
         depth_m: row.front.depth,
-        froude: row.front.velocity / (g * row.front.depth).sqrt(),
+        froude_1: row.front.velocity / (g * row.front.depth).sqrt(),
     };
     let stations = case.gauges.stations_m.iter();
     let mut passages: Vec<_> =

@@ -78,7 +78,7 @@ fn checks(flume: &CaseRun) -> Vec<Check> {
     // Side walls, which the balance of the deposit leaves out, hold a part of it, and may brake the front below a block.
     let by_base_alone = summary.case.side_walls.friction == 0.0;
     if let Some(d) = summary.deposit.as_ref().filter(|_| by_base_alone) {
-        let share = d.equilibrium_residual_n.abs() / d.weight_along_flume_n;
+        let share = d.equilibrium_residual_n.abs() / d.weight_along_n;
         checks.push(
             Check::at_most(format!("{name}: |weight + base friction - other walls| / weight"), share, 0.01, "1")
                 .because("at rest, with less than 1e-4 of the energy kinetic; means over 0.3 s")

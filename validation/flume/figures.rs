@@ -30,7 +30,7 @@ fn references(flume: &CaseRun) -> String {
     let mut text = String::from("label,value_n,half_width_n\n");
     let mut add = |label: &str, value: f64, half: f64| text += &format!("{},{value:.4},{half:.4}\n", quoted(label));
     if let Some(d) = &flume.summary.deposit {
-        let [low, high] = d.friction_limits_n;
+        let [low, high] = d.equilibrium_limits_n;
         add(
             "what equilibrium allows at rest, m g sin \u{3b8} \u{2213} \u{3bc} N",
             0.5 * (low + high),
@@ -63,7 +63,7 @@ fn front(flume: &CaseRun) -> String {
     let acceleration = acceleration_from_rest(case.gravity.magnitude_m_per_s2, angle, base_friction(case));
     let rows = flume.summary.front.iter().map(|f| {
         let block = (2.0 * acceleration * f.x_m).sqrt();
-        vec![f.x_m, f.time_s, f.velocity_m_per_s, f.depth_m, f.froude, block]
+        vec![f.x_m, f.time_s, f.velocity_m_per_s, f.depth_m, f.froude_1, block]
     });
     table_csv(&["x_m", "time_s", "front_velocity_m_per_s", "front_depth_m", "froude_1", "block_velocity_m_per_s"], rows)
 }

@@ -22,13 +22,13 @@ pub fn checks(flume: &CaseRun) -> Vec<Check> {
     let mut checks = vec![
         exact(
             "momentum residual / sum of impulses",
-            summary.momentum.closure_max,
+            summary.momentum.momentum_closure_1,
             1e-10,
             "every impulse is booked where it acts: only round-off over 25,000 steps remains",
         ),
         exact(
             "energy residual / E0, largest",
-            summary.energy.residual_max,
+            summary.energy.energy_residual_1,
             0.02,
             "second-order terms of the transfers are booked nowhere; 2 % is the share at which forces would begin to suffer",
         ),
@@ -41,7 +41,7 @@ pub fn checks(flume: &CaseRun) -> Vec<Check> {
         ),
         exact(
             "deepest penetration / cell size",
-            summary.momentum.penetration_max_m / case.grid.spacing_m,
+            summary.momentum.penetration_m / case.grid.spacing_m,
             1.0,
             "a wall acts on its nodes; a point within one cell behind them is still pushed back",
         ),
@@ -63,7 +63,7 @@ pub fn checks(flume: &CaseRun) -> Vec<Check> {
             .from(Kind::Conservation, "impulse of the barrier in the momentum ledger"),
     );
 
-    let weight = deposit.weight_along_flume_n;
+    let weight = deposit.weight_along_n;
     checks.push(
         Check::at_most(
             format!("{name}: |weight + base friction - other walls| / weight"),
@@ -74,7 +74,7 @@ pub fn checks(flume: &CaseRun) -> Vec<Check> {
         .because("at rest, with less than 1e-4 of the energy kinetic; means over 0.3 s")
         .from(Kind::Conservation, "equilibrium along the flume"),
     );
-    let [low, high] = deposit.friction_limits_n;
+    let [low, high] = deposit.equilibrium_limits_n;
     checks.push(
         Check::new(format!("{name}: static force"), barrier.static_force_n, Expected::Within(low, high), "N")
             .because("Coulomb's law bounds the base friction by mu N either way")

@@ -364,9 +364,9 @@ fn flume_run(per_cell: usize, h: f64) -> Result<Flowed, String> {
     let barrier = summary.barrier.ok_or("no barrier")?;
     let deposit = summary.deposit.ok_or("no deposit")?;
     let front = summary.front.iter().find(|f| (f.x_m - 0.7).abs() < 1e-9).ok_or("the front does not reach 0.7 m")?;
-    let arrival = barrier.arrival_time_s.ok_or("no arrival")?;
+    let arrival = barrier.arrival_s.ok_or("no arrival")?;
     Ok(Flowed {
-        read: [barrier.peak_force_20ms_n, barrier.static_force_n, arrival, front.velocity_m_per_s],
-        limits: deposit.friction_limits_n,
+        read: [barrier.peak_20ms_n, barrier.static_force_n, arrival, front.velocity_m_per_s],
+        limits: deposit.equilibrium_limits_n,
     })
 }

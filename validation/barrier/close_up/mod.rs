@@ -12,7 +12,6 @@ mod lines;
 mod numbers;
 mod record;
 mod releases;
-mod seen;
 pub mod slip;
 mod wave;
 

@@ -1,0 +1,109 @@
+//! What a run says of energy and momentum.
+
+use super::records::{MomentumRow, Records};
+use crate::ledger::EnergyBalance;
+use serde::Serialize;
+
+/// Energy at the end, as shares of the energy at release.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct EnergyResults {
+    /// Kinetic, gravitational (above the barrier's foot) and elastic energy at release, J.
+    pub initial_j: f64,
+    /// Kinetic energy.
+    pub kinetic_1: f64,
+    /// Gravitational energy.
+    pub gravitational_1: f64,
+    /// Elastic energy.
+    pub elastic_1: f64,
+    /// Dissipated by plastic work.
+    pub plastic_1: f64,
+    /// Dissipated by friction on boundaries and between bodies.
+    pub friction_1: f64,
+    /// Lost in normal impact on boundaries and between bodies.
+    pub impact_1: f64,
+    /// Taken by the PIC share of the velocity update.
+    pub pic_1: f64,
+    /// Dissipated by friction on the side walls.
+    pub side_walls_1: f64,
+    /// Carried out of the domain.
+    pub outflow_1: f64,
+    /// Not accounted for, at the end.
+    pub residual_end_1: f64,
+    /// Not accounted for, largest magnitude at any time.
+    pub energy_residual_1: f64,
+    /// Largest kinetic share at any time.
+    pub kinetic_max_1: f64,
+}
+
+/// Momentum at the end.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct MomentumResults {
+    /// Sum of the magnitudes of all impulses, N s.
+    pub impulse_scale_n_s: f64,
+    /// Largest residual at any time over that scale.
+    pub momentum_closure_1: f64,
+    /// Mass that left the domain, kg.
+    pub outflow_kg: f64,
+    /// Deepest that any point lay inside a boundary, or inside a barrier that is a body, m.
+    pub penetration_m: f64,
+}
+
+/// Of the records of a run; zeros without one.
+pub(super) fn energy(records: &Records) -> EnergyResults {
+    let mut results = EnergyResults {
+        initial_j: 0.0,
+        kinetic_1: 0.0,
+        gravitational_1: 0.0,
+        elastic_1: 0.0,
+        plastic_1: 0.0,
+        friction_1: 0.0,
+        impact_1: 0.0,
+        pic_1: 0.0,
+        side_walls_1: 0.0,
+        outflow_1: 0.0,
+        residual_end_1: 0.0,
+        energy_residual_1: 0.0,
+        kinetic_max_1: 0.0,
+    };
+    let Some(last) = records.energy.last() else { return results };
+    let e = &last.balance;
+    results.initial_j = e.initial;
+    if e.initial == 0.0 {
+        return results;
+    }
+    let share = |x: f64| x / e.initial;
+    results.kinetic_1 = share(e.kinetic);
+    results.gravitational_1 = share(e.gravitational);
+    results.elastic_1 = share(e.elastic);
+    results.plastic_1 = share(e.plastic);
+    results.friction_1 = share(e.friction.iter().sum());
+    results.impact_1 = share(e.contact.iter().sum());
+    results.pic_1 = share(e.pic);
+    results.side_walls_1 = share(e.side_walls);
+    results.outflow_1 = share(e.outflow);
+    results.residual_end_1 = share(e.residual);
+    let largest = |value: fn(&EnergyBalance) -> f64| {
+        records.energy.iter().map(|r| share(value(&r.balance)).abs()).fold(0.0, f64::max)
+    };
+    results.energy_residual_1 = largest(|b| b.residual);
+    results.kinetic_max_1 = largest(|b| b.kinetic);
+    results
+}
+
+/// Of the records of a run; zeros without one.
+pub(super) fn momentum(records: &Records) -> MomentumResults {
+    let last = records.momentum.last();
+    MomentumResults {
+        impulse_scale_n_s: last.map_or(0.0, |r| r.ledger.impulse_scale),
+        momentum_closure_1: records
+            .momentum
+            .iter()
+            .filter(|r| r.ledger.impulse_scale > 0.0)
+            .map(MomentumRow::closure)
+            .fold(0.0, f64::max),
+        outflow_kg: last.map_or(0.0, |r| r.ledger.departed_mass),
+        penetration_m: records.history.iter().map(|r| r.penetration).fold(0.0, f64::max),
+    }
+}

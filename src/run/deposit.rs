@@ -1,0 +1,78 @@
+//! What a run says of the deposit at its end.
+
+use super::experiment::Experiment;
+use super::means::{STATIC_WINDOW, late_mean};
+use super::records::{MomentumRow, Records};
+use crate::boundary::Friction;
+use serde::Serialize;
+
+/// Equilibrium along the flume at the end: weight, base friction, barrier.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct DepositResults {
+    /// m g sin of what lies on the base, N.
+    pub weight_along_n: f64,
+    /// m g (sin - mu cos): base friction fully mobilised up the flume, nothing on the barrier's face, N.
+    pub theoretical_static_force_n: f64,
+    /// Mean normal force of the base over the last 0.3 s, N.
+    pub base_normal_n: f64,
+    /// Mean friction of the base on the material, N; negative: up the flume.
+    pub base_friction_n: f64,
+    /// Friction that the base could give, mu N, N.
+    pub friction_limit_n: f64,
+    /// Share of it that is mobilised, -1 (up the flume, relieving the barrier) to 1 (down the flume, loading it).
+    pub mobilised_1: f64,
+    /// Least and greatest force along the flume that equilibrium allows: m g sin -/+ mu N.
+    pub equilibrium_limits_n: [f64; 2],
+    /// Mean force that the material exerts along the flume on all boundaries but the base over the last 0.3 s, N.
+    pub held_along_flume_n: f64,
+    /// Weight plus base friction less what is held, N: zero at rest.
+    pub equilibrium_residual_n: f64,
+}
+
+/// `None` without a base that has friction, or without a sample.
+pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<DepositResults> {
+    let sim = experiment.simulation();
+    let base = &sim.boundaries()[experiment.base()?];
+    let Friction::Coulomb(mu) = base.friction else { return None };
+    let last = records.history.last()?;
+    let g = sim.gravity();
+    let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
+    let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
+    // What lies behind the barrier rests on the base, too, but does not push.
+    let structures = experiment.structures();
+    let barrier = experiment.barrier()?.boundary();
+    let departed = barrier.map_or(sim.ledger().departed_mass, |b| sim.ledger().departed_behind[b]);
+    let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - (last.overtopped - departed);
+    let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
+    let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
+    let weight = mass * along;
+    let limit = mu * base_normal;
+    // What the other boundaries and bodies take, from the ledger: the barrier, and whatever else the deposit leans on. What clamps
+    // do to a barrier that is a body is no concern of the deposit.
+    let end = records.momentum.last()?;
+    let start = records.momentum.iter().find(|r| r.time >= end.time - STATIC_WINDOW)?;
+    let base_index = experiment.base()?;
+    let own = |b: usize| b == base_index || structures.iter().any(|s| sim.boundaries()[b].bodies == [*s]);
+    let push = |row: &MomentumRow| -> f64 {
+        let along = |p: [f64; 2]| p[0] * base.tangent.x + p[1] * base.tangent.y;
+        let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| !own(*b));
+        let contacts = row.ledger.contacts.iter().zip(sim.contacts()).map(|(tally, rule)| {
+            let sign = rule.bodies.map(|b| f64::from(u8::from(structures.contains(&b))));
+            (sign[0] - sign[1]) * along(tally.exchange.impulse)
+        });
+        others.map(|(_, t)| along(t.impulse)).sum::<f64>() + contacts.sum::<f64>()
+    };
+    let held = -(push(end) - push(start)) / (end.time - start.time).max(f64::MIN_POSITIVE);
+    Some(DepositResults {
+        weight_along_n: weight,
+        theoretical_static_force_n: mass * (along - mu * across),
+        base_normal_n: base_normal,
+        base_friction_n: base_friction,
+        friction_limit_n: limit,
+        mobilised_1: if limit > 0.0 { base_friction / limit } else { 0.0 },
+        equilibrium_limits_n: [weight - limit, weight + limit],
+        held_along_flume_n: held,
+        equilibrium_residual_n: weight + base_friction - held,
+    })
+}

@@ -1,0 +1,97 @@
+//! The figures of a run, drawn from its tables.
+
+use super::experiment::Experiment;
+use super::gauges::{Barrier, suffix};
+use super::summary::Summary;
+use crate::case::Case;
+use crate::output::Table;
+use crate::plot::curves::{Curve, Curves};
+use crate::plot::{self, PlotError, force_time::ReferenceLine};
+use std::path::Path;
+
+/// Force on a barrier that is a body: what contact gives, what the clamp takes, what is left as momentum.
+const BARRIER_FORCES: Curves = Curves {
+    x: "time_s",
+    x_title: "time (s)",
+    y_title: "force against the face (N)",
+    curves: &[
+        Curve { column: "contact_normal_n", label: "contact with the flow", exact: false },
+        Curve { column: "clamp_normal_n", label: "clamp", exact: false },
+        Curve { column: "inertia_normal_n", label: "rate of momentum", exact: false },
+    ],
+    ..Curves::LINEAR
+};
+
+/// Its face, bent.
+const PEAK_DEFLECTION: Curves = Curves {
+    x: "deflection_m",
+    x_title: "deflection at the largest force (m)",
+    y_title: "height above the foot (m)",
+    curves: &[Curve { column: "height_m", label: "", exact: false }],
+    ..Curves::LINEAR
+};
+
+/// Draws all figures of a run from its tables, leaving out those whose table has no row yet. All of them are tried, also when one
+/// fails.
+pub(super) fn draw_figures(
+    case: &Case,
+    directory: &Path,
+    experiment: &Experiment,
+    summary: &Summary,
+) -> Result<(), PlotError> {
+    let at = |name: &str| directory.join(name);
+    let has_rows = |name: &str| !Table::load(at(name)).is_ok_and(|table| table.rows() == 0);
+    let mut results = Vec::new();
+    for (k, barrier) in experiment.barriers().iter().enumerate() {
+        results.extend(draw_barrier(
+            directory,
+            &suffix(barrier, k),
+            barrier,
+            if k == 0 { Some(summary) } else { None },
+        ));
+    }
+    if summary.energy.initial_j > 0.0 && has_rows("energy.csv") {
+        results.push(plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg")));
+    }
+    if !case.gauges.field_times_s.is_empty() && has_rows("field.csv") {
+        let bends = experiment.barriers().iter().enumerate().find(|(_, b)| b.structure().is_some());
+        let outline = bends.map(|(k, b)| at(&format!("barrier_outline{}.csv", suffix(b, k))));
+        let (field, geometry, out) = (at("field.csv"), at("geometry.csv"), at("flow_snapshots.svg"));
+        let (shown, inclination) = (&plot::flow_snapshots::Shown::SPEED, case.gravity.inclination_deg);
+        let drawn =
+            plot::flow_snapshots::draw_with_barrier(field, shown, geometry, outline.as_deref(), inclination, out);
+        results.push(drawn);
+    }
+    results.into_iter().collect()
+}
+
+/// Draws the figures of a barrier from its tables. The force that it would take at least is known of the first, with its `summary`.
+fn draw_barrier(
+    directory: &Path,
+    suffix: &str,
+    barrier: &Barrier,
+    summary: Option<&Summary>,
+) -> Vec<Result<(), PlotError>> {
+    let at = |name: &str, kind: &str| directory.join(format!("{name}{suffix}.{kind}"));
+    let has_rows = |name: &str| !Table::load(at(name, "csv")).is_ok_and(|table| table.rows() == 0);
+    let mut results = Vec::new();
+    if barrier.structure().is_some() && has_rows("barrier") {
+        results.push(plot::curves::draw(at("barrier", "csv"), &BARRIER_FORCES, at("barrier_forces", "svg")));
+    }
+    if !barrier.peak_profile().points.is_empty() {
+        let (table, figure) = (at("barrier_profile_at_peak", "csv"), at("barrier_deflection", "svg"));
+        results.push(plot::curves::draw(table, &PEAK_DEFLECTION, figure));
+    }
+    if has_rows("history") {
+        let deposit = summary.and_then(|s| s.deposit.as_ref());
+        let value = deposit.map(|d| d.theoretical_static_force_n).filter(|f| f.is_finite());
+        let label = "weight less full base friction\nm g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})";
+        let lines: Vec<_> = value.map(|v| ReferenceLine::new(label, v)).into_iter().collect();
+        results.push(plot::force_time::draw(at("history", "csv"), &lines, at("force_time", "svg")));
+    }
+    if has_rows("pressure_profile") {
+        let (table, figure) = (at("pressure_profile", "csv"), at("pressure_profile", "svg"));
+        results.push(plot::pressure_profile::draw(table, figure));
+    }
+    results
+}
