@@ -5,6 +5,7 @@ use super::table::{Column, Group, Per, TableKind, TableText};
 use crate::gauge::StructureSample;
 use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
+use crate::simulation::ContactPoint;
 
 /// All tables of a run with all their columns.
 pub fn columns() -> Vec<TableText> {
@@ -18,6 +19,7 @@ pub fn columns() -> Vec<TableText> {
         BENDING.describe(),
         BENDING_AT_PEAK.describe(),
         OUTLINE.describe(),
+        CONTACT.describe(),
         FIELD.describe(),
         GEOMETRY.describe(),
         FURTHER.describe(),
@@ -253,6 +255,29 @@ pub(super) static OUTLINE: TableKind<[f64; 3]> = TableKind {
             "time_s", "s", "after release", |r, _| r[0];
             "x_m", "m", "place along x", |r, _| r[1];
             "y_m", "m", "place along y", |r, _| r[2];
+        ],
+    )],
+};
+
+/// A node where bodies touch: time (s), length of the step (s), what they did there.
+pub(super) type Touching = (f64, f64, ContactPoint);
+
+/// Traction between bodies.
+pub(super) static CONTACT: TableKind<Touching> = TableKind {
+    file: "contact.csv",
+    row: "a node where two bodies touch in the last step, at each of field_times_s",
+    groups: &[Group(
+        Per::Table,
+        columns![Touching;
+            "time_s", "s", "after release", |r, _| r.0;
+            "contact", "-", "number of the contact in the case, from 0", |r, _| r.2.contact as f64;
+            "x_m", "m", "place of the node along x", |r, _| r.2.x[0];
+            "y_m", "m", "place of the node along y", |r, _| r.2.x[1];
+            "normal_x_1", "1", "unit normal out of the structure, along x", |r, _| r.2.normal[0];
+            "normal_y_1", "1", "unit normal out of the structure, along y", |r, _| r.2.normal[1];
+            "pressure_pa", "Pa", "normal traction, positive where the bodies press on each other", |r, _| r.2.traction(r.1)[0];
+            "shear_pa", "Pa", "traction on the other body along the normal turned clockwise", |r, _| r.2.traction(r.1)[1];
+            "area_m2", "m2", "area of contact that belongs to the node (Nairn 2013)", |r, _| r.2.area;
         ],
     )],
 };

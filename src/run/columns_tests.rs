@@ -15,6 +15,7 @@ fn ending(unit: &str) -> Option<&'static str> {
         ("Pa", "_pa"),
         ("cells", "_cells"),
         ("1", ""),
+        ("m2", "_m2"),
         ("-", ""),
     ];
     all.into_iter().find(|(u, _)| *u == unit).map(|(_, end)| end)

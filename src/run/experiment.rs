@@ -278,7 +278,8 @@ impl Experiment {
                 recorder.outline(time, &structure.outline())?;
             }
         }
-        Ok(())
+        let sim = &self.simulation;
+        recorder.contact(time, sim.time_step().dt, sim.contact_points())
     }
 
     fn record_profile(&mut self, time: f64, recorder: &mut dyn Recorder) -> Result<(), OutputError> {

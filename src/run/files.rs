@@ -20,7 +20,7 @@ use crate::gauge::StructureSample;
 use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
 use crate::output::{self, Field, OutputError, PvdWriter, Values};
-use crate::simulation::Simulation;
+use crate::simulation::{ContactPoint, Simulation};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -108,6 +108,7 @@ struct Folder {
     momentum: OpenTable<MomentumRow>,
     stations: Option<OpenTable<[f64; 4]>>,
     field: Option<OpenTable<(f64, FieldCell)>>,
+    contact: Option<OpenTable<columns::Touching>>,
     frames: Option<PvdWriter>,
     frame_count: usize,
 }
@@ -223,6 +224,7 @@ impl Folder {
             momentum: OpenTable::create(&columns::MOMENTUM, &at("momentum.csv"), names)?,
             stations: optional(!gauges.stations_m.is_empty(), &columns::STATIONS, &at("stations.csv"))?,
             field: optional(fields, &columns::FIELD, &at("field.csv"))?,
+            contact: optional(fields && sim.contacts().next().is_some(), &columns::CONTACT, &at("contact.csv"))?,
             frames,
             frame_count: 0,
         })
@@ -231,7 +233,7 @@ impl Folder {
     /// Hands all rows to the files; all of them, also when one fails.
     fn close(&mut self) -> Result<(), OutputError> {
         let mut results = vec![self.first.flush(), self.energy.flush(), self.momentum.flush()];
-        results.extend([flush(&mut self.stations), flush(&mut self.field)]);
+        results.extend([flush(&mut self.stations), flush(&mut self.field), flush(&mut self.contact)]);
         results.extend(self.further.iter_mut().map(BarrierTables::flush));
         results.into_iter().collect()
     }
@@ -280,6 +282,11 @@ impl Recorder for Folder {
         self.first.outline(time, points)
     }
 
+    fn contact(&mut self, time: f64, dt: f64, points: &[ContactPoint]) -> Result<(), OutputError> {
+        let Some(table) = &mut self.contact else { return Ok(()) };
+        points.iter().try_for_each(|p| table.row(&(time, dt, *p)))
+    }
+
     fn field(&mut self, time: f64, cells: &[FieldCell]) -> Result<(), OutputError> {
         let Some(table) = &mut self.field else { return Ok(()) };
         cells.iter().try_for_each(|c| table.row(&(time, *c)))
@@ -317,3 +324,7 @@ impl Recorder for Folder {
         Ok(())
     }
 }
+
+#[cfg(test)]
+#[path = "files_tests.rs"]
+mod tests;

@@ -7,7 +7,7 @@ use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::output::OutputError;
-use crate::simulation::Simulation;
+use crate::simulation::{ContactPoint, Simulation};
 
 /// One sample of the gauges; means over the sampling interval where a force is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -107,6 +107,10 @@ pub trait Recorder {
     }
     /// Its surface at a snapshot: points in order, m.
     fn outline(&mut self, _time: f64, _points: &[[f64; 2]]) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// Where bodies touch at a snapshot, in the last step, of `dt` s.
+    fn contact(&mut self, _time: f64, _dt: f64, _points: &[ContactPoint]) -> Result<(), OutputError> {
         Ok(())
     }
     /// Velocity field at a snapshot.
