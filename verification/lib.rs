@@ -1,8 +1,8 @@
 //! Are we solving the equations right? A ladder of rungs, each a set of checks against closed forms, exact fields, conservation
 //! laws and observed orders.
 //!
-//! The ladder is part of the library so that `cargo test` and the command run the same thing. A rung is one file and one line
-//! in [`RUNGS`]. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
+//! The ladder is a library so that `cargo test` and the command run the same thing. A rung is one file, and its name twice in
+//! this one. Every rung runs under a [`Fault`], which perturbs the physics given to the solver and not the closed form:
 //! a rung that does not notice a few percent of wrong friction where it claims to, proves nothing.
 //!
 //! Elsewhere: code verification, benchmark suite, method of manufactured solutions (MMS).
