@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fmt::Write as _;
 
 /// Units by the end of a key, the longest first.
-const UNITS: [(&str, &str); 11] = [
+const UNITS: [(&str, &str); 16] = [
     ("_m_per_s2", "m/s²"),
     ("_kg_per_m3", "kg/m³"),
     ("_m_per_s", "m/s"),
@@ -15,6 +15,11 @@ const UNITS: [(&str, &str); 11] = [
     ("_pa", "Pa"),
     ("_kg", "kg"),
     ("_hz", "Hz"),
+    ("_n_m", "N m"),
+    ("_n_s", "N s"),
+    ("_n", "N"),
+    ("_j", "J"),
+    ("_1", "1"),
     ("_s", "s"),
     ("_m", "m"),
 ];
@@ -148,7 +153,8 @@ fn kind(schema: &Schema, node: &Value) -> String {
     .to_owned()
 }
 
-fn unit(key: &str) -> &'static str {
+/// The unit of a number, from the end of its name.
+pub fn unit(key: &str) -> &'static str {
     UNITS.iter().find(|(end, _)| key.ends_with(end)).map_or("–", |(_, unit)| unit)
 }
 

@@ -78,22 +78,22 @@ fn same(a: &toml::Value, b: &toml::Value) -> bool {
 
 #[test]
 fn what_is_committed_is_what_the_doc_comments_say() {
-    let writes = std::env::var_os("CHECKDAM_REPORTS").is_some();
     for (name, schema, head) in both() {
         let json = serde_json::to_string_pretty(&schema.0).expect("JSON") + "\n";
-        for (file, text) in [(format!("{name}.md"), page(&schema, head)), (format!("{name}.schema.json"), json)] {
-            let path = root().join("docs/reference").join(&file);
-            if writes {
-                std::fs::write(&path, &text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-            }
-            let committed = std::fs::read_to_string(&path).unwrap_or_default();
-            let line = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(0) + 1;
-            assert!(
-                committed == text,
-                "docs/reference/{file}, line {line}, is not up to date: `cargo reference` writes it"
-            );
-        }
+        check_committed(&format!("{name}.md"), &page(&schema, head));
+        check_committed(&format!("{name}.schema.json"), &json);
     }
+}
+
+/// A file of the reference is committed with this text; `cargo reference` writes it first.
+pub fn check_committed(file: &str, text: &str) {
+    let path = root().join("docs/reference").join(file);
+    if std::env::var_os("CHECKDAM_REPORTS").is_some() {
+        std::fs::write(&path, text).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    let line = committed.lines().zip(text.lines()).position(|(a, b)| a != b).unwrap_or(0) + 1;
+    assert!(committed == text, "docs/reference/{file}, line {line}, is not up to date: `cargo reference` writes it");
 }
 
 #[test]
