@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::schema::Grid;
+use super::grid::Grid;
 use crate::boundary::{Friction, Opening};
 
 /// A rigid boundary. Which of its fields are required, and which refused, depends on `kind`, `contact` and `opening`.

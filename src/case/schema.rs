@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::boundary::Boundary;
 use super::contact::BodyContact;
+use super::grid::Grid;
 use super::material::Material;
-use crate::shape::ShapeFunction;
 use crate::simulation::{PicShare, Scheme};
 
 /// Most particles a case may have; above this it is refused before any memory is asked for.
@@ -72,27 +72,6 @@ pub struct Gravity {
     /// The same angle while the material settles. Default: that of `inclination_deg`. Allowed: -90 to 90; another than
     /// `inclination_deg` only with `[stages.tilt]`. Example: `0`.
     pub settle_inclination_deg: Option<f64>,
-}
-
-/// Background grid.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Grid {
-    /// Cell size h. Allowed: above 0; at most 2e7 particles and 5e7 cells in the domain. Example: `0.01`.
-    pub spacing_m: f64,
-    /// Width of the channel, perpendicular to the plane of the simulation. Allowed: above 0. Example: `0.2`.
-    pub thickness_m: f64,
-    /// Interpolation between particles and grid nodes. Default: `"ugimp"`.
-    #[serde(default)]
-    pub shape_function: ShapeFunction,
-    /// Particles in a full cell. Default: `4`. Allowed: 1, 4, 9 or 16. Example: `9`.
-    #[serde(default = "default_particles_per_cell")]
-    pub particles_per_cell: u32,
-    /// Place of a node, `[x, y]`. Another place says how much a result owes to the grid's. Default: `[0.0, 0.0]`.
-    /// Allowed: each from -h to h, where h is `spacing_m`. Example: `[0.004, -0.002]`.
-    #[serde(default)]
-    pub origin_m: [f64; 2],
 }
 
 /// The box that holds the simulation. Material that leaves it is removed, counted and reported.
@@ -418,10 +397,6 @@ impl Case {
 
 fn default_gravity_magnitude() -> f64 {
     9.81
-}
-
-fn default_particles_per_cell() -> u32 {
-    4
 }
 
 fn yes() -> bool {

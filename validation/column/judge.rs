@@ -1,6 +1,5 @@
 //! What must hold, and what stands beside the data.
 
-use super::SOURCE;
 use super::plan::{self, CASES, CHANGES, Case, Planned, STEEP_DEG, friction_angles, numbers};
 use super::verdict::{Ours, Recorded, sentence};
 use crate::data::{self, Datum};
@@ -127,7 +126,7 @@ fn judged(datum: &Datum) -> bool {
 
 /// All data of one validation with ours.
 fn compared(inclined: bool, rows: &[Recorded]) -> Vec<(Datum, &'static Case, Ours, f64)> {
-    let own = data::rows(SOURCE).into_iter().filter_map(|d| {
+    let own = data::rows(data::COLUMNS).into_iter().filter_map(|d| {
         let case = case_of(&d).filter(|c| (c.grains == "slope") == inclined)?;
         let of = d.ours.as_ref()?;
         // The length that scales the datum: our lengths are over r0.

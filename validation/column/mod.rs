@@ -15,7 +15,6 @@ mod judge;
 #[cfg(test)]
 mod tests;
 
-use super::data::Source;
 use super::record::RecordedRun;
 use super::{Context, Failure, Validation};
 use checkdam::plot::PlotError;
@@ -25,8 +24,6 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// What was measured and published.
-pub const SOURCE: Source = ("column/published.csv", include_str!("published.csv"));
 /// The recorded runs of [`plan::all`].
 const RECORD: &str = include_str!("runs/columns.csv");
 

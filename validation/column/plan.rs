@@ -1,6 +1,5 @@
 //! The runs: which columns, on which grids, with which inputs changed.
 
-use super::SOURCE;
 use crate::data;
 use checkdam::boundary::{Friction, Opening};
 use checkdam::simulation::PicShare;
@@ -51,7 +50,7 @@ pub const CASES: [Case; 10] = [
 /// The friction angle of grains as far as it is known, rad: lowest and highest. Grains come to rest at the angle of repose and
 /// start at the avalanche angle; where only the first is known, with its uncertainty.
 pub fn friction_angles(grains: &str) -> [f64; 2] {
-    let rows = data::rows(SOURCE);
+    let rows = data::rows(data::COLUMNS);
     let of = |what: &str| rows.iter().find(|r| r.case == grains && r.quantity == what);
     let repose = of("angle of repose").unwrap_or_else(|| panic!("no angle of repose of {grains}"));
     let (low, high) = match of("avalanche angle") {

@@ -1,12 +1,12 @@
 //! The data and the record are what they say.
 
 use super::plan::{self, CASES};
-use super::{RECORD, SOURCE, verdict};
+use super::{RECORD, verdict};
 use crate::data;
 use checkdam::theory::collapse as law;
 
 fn value(id: &str) -> f64 {
-    data::row(SOURCE, id).value
+    data::row(data::COLUMNS, id).value
 }
 
 #[test]

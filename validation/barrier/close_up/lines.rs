@@ -1,7 +1,7 @@
 //! The lines of the record, from what was seen of a barrier.
 
-use super::record::Seen;
 use super::releases::{INSTANTS, WAVE_TIME};
+use super::seen::Seen;
 use super::slip;
 use checkdam::check::significant;
 use checkdam::gauge::structure::ProfilePoint;

@@ -12,6 +12,7 @@ mod lines;
 mod numbers;
 mod record;
 mod releases;
+mod seen;
 pub mod slip;
 mod wave;
 

@@ -1,31 +1,15 @@
 //! Makes the record anew: runs the four barriers under both releases and writes down what the figures need.
 
 use super::collect::Collector;
-use super::releases::{Arrival, BARRIERS, FIELDS, Look, RELEASES, look};
+use super::releases::{BARRIERS, FIELDS, Look, RELEASES, look};
+use super::seen::Seen;
 use super::{lines, slip};
 use crate::watch::{WordsFn, side_by_side, watched};
 use crate::{Context, Failure};
-use checkdam::boundary::Boundary;
-use checkdam::gauge::structure::ProfilePoint;
 use checkdam::run::{Experiment, files, scene};
 
 /// Tables by file.
 pub(super) type Tables = Vec<(String, String)>;
-
-/// What was seen of a barrier.
-pub(super) struct Seen {
-    pub barrier: &'static str,
-    pub arrival: Arrival,
-    pub collector: Collector,
-    pub rows: Vec<slip::Row>,
-    /// Plastic work after the arrival by threshold and region, J.
-    pub thresholds: [[f64; 4]; slip::THRESHOLDS.len()],
-    pub peak: Vec<ProfilePoint>,
-    pub face: Boundary,
-    pub thickness: f64,
-    pub spacing: f64,
-    pub outlines: Vec<(usize, Vec<[f64; 2]>)>,
-}
 
 /// Runs the barriers side by side; the tables of each release.
 pub(super) fn make(context: &mut Context) -> Result<Vec<Tables>, Failure> {

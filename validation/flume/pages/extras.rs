@@ -1,7 +1,7 @@
 //! What stands on single pages: speeds in the window, closed forms, and what nothing of ours stands beside.
 
 use super::super::compare;
-use super::text::{published, three};
+use super::digits::{published, three};
 use super::{Figure, LINES};
 use crate::data;
 use checkdam::output::{OutputError, Table};

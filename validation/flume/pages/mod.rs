@@ -4,6 +4,7 @@
 //! [`tables`] puts the numbers side by side, from the records and the paper's table; [`write`] makes pages (Markdown) of them.
 //! Nothing on a page is typed in but words.
 
+mod digits;
 mod extras;
 mod lines;
 mod table;

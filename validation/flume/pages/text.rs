@@ -1,10 +1,10 @@
 //! The pages, as Markdown, from the tables.
 
 use super::super::CASES;
+use super::digits::{published, three, two};
 use super::extras::{closed_forms, not_compared, speeds};
 use super::table::{ROWS, WINDOW};
 use super::{FIGURES, Figure};
-use checkdam::check::significant;
 use checkdam::output::{OutputError, Table, write_text};
 use std::path::Path;
 
@@ -43,15 +43,6 @@ pub fn write(folder: &Path) -> Result<Vec<String>, OutputError> {
 /// "40 degrees".
 fn angle(case: &str) -> String {
     format!("{} degrees", case.trim_end_matches("deg"))
-}
-
-/// Three digits; a dash where there is no number.
-pub fn three(x: f64) -> String {
-    if x.is_finite() { significant(x, 3) } else { "\u{2013}".into() }
-}
-
-pub fn two(x: f64) -> String {
-    if x.is_finite() { significant(x, 2) } else { "\u{2013}".into() }
 }
 
 /// Title, the way to the other pages, figures at both angles, what they show.
@@ -105,18 +96,6 @@ fn summary(rows: &Table, figure: &Figure) -> Result<String, OutputError> {
         };
     }
     Ok(text + "\n")
-}
-
-/// A published number with its half width, and its kind if it is not the column's.
-pub fn published(value: f64, half_width: f64, kind: &str) -> String {
-    if !value.is_finite() {
-        return "\u{2013}".into();
-    }
-    let note = match kind {
-        "" | "computed" | "measured" => String::new(),
-        kind => format!(" ({kind})"),
-    };
-    format!("{} \u{b1} {}{note}", three(value), two(half_width))
 }
 
 /// The first words of a verdict; what disagrees stands out.
