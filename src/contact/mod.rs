@@ -6,7 +6,7 @@
 //! Ng et al., Appendix B).
 //!
 //! - [`side`] is one body at a node; [`pair`] is the law for two: impulse, stick and slip, work; [`node`] solves it for any number.
-//! - [`normal`], [`regression`] and [`outline`] say how the surface lies, [`separation`] how far apart the bodies are.
+//! - `normal`, `regression` and [`outline`] say how the surface lies, `separation` how far apart the bodies are.
 //!
 //! - [`rule`] is what a user chooses.
 //!

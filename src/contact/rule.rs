@@ -30,7 +30,7 @@ pub enum GapRule {
     Approach,
     /// From mean positions at the node, which are `offset` cells apart when bodies touch.
     Positions {
-        /// Cells, see [`TOUCHING`].
+        /// Cells, see `TOUCHING`.
         offset: f64,
     },
     /// From mean displacements since the start, for bodies that touch then.

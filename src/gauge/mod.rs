@@ -4,7 +4,7 @@
 //!   every step.
 //! - [`StructureGauge`]: a barrier that is a body: its clamp, its inertia, how it bends, whether it tears, the material beside it.
 //! - [`BaseGauge`]: force of a boundary on what lies on it.
-//! - [`layers`]: the same force from the stress of the nearest material points.
+//! - `layers`: the same force from the stress of the nearest material points.
 //! - [`ReactionGauge`]: force and moment on a clamp, or between bodies.
 //! - [`penetration`]: how deep material lies inside a structure.
 //! - [`flow`]: front, depth, velocity, run-up, overtopping.

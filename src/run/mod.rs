@@ -1,8 +1,8 @@
 //! Runs a case: settle, tilt, release, record.
 //!
-//! [`Experiment`] drives a simulation through its stages and reads the [`gauges`]; [`records`] says what is recorded, [`columns`]
+//! [`Experiment`] drives a simulation through its stages and reads the `gauges`; [`records`] says what is recorded, [`columns`]
 //! what stands in each column of a table; [`files`]
-//! writes it down; [`summary`] draws the conclusions.
+//! writes it down; `summary` draws the conclusions.
 
 mod balances;
 mod barrier;

@@ -72,7 +72,7 @@ pub struct ContactPoint {
     pub normal: Vector,
     /// Impulse on the second body, N s.
     pub impulse: Vector,
-    /// Area of contact that belongs to the node, m2, see [`separation::area`](crate::contact::separation::area): the volumes there
+    /// Area of contact that belongs to the node, m2, see `separation::area`: the volumes there
     /// are masses over densities in the reference state.
     pub area: f64,
 }
