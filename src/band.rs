@@ -144,6 +144,12 @@ impl Band {
         self.len() == 0
     }
 
+    /// Velocity of one of its nodes after the momentum balance, m/s.
+    pub fn velocity(&self, node: usize) -> [f64; 2] {
+        let [x, y, ..] = self.work.motion[node];
+        [x, y]
+    }
+
     /// Makes room for a step. What the workspace holds afterwards is of no use.
     pub fn make_room(&mut self) {
         let Self { work, owned, reach, .. } = self;

@@ -216,7 +216,12 @@ pub fn close(before: Option<&mut Band>, band: &mut Band, node: usize, index: usi
     band.distributed.damping.add(open.damped, mean);
     band.distributed.side_walls.add(open.braked, mean);
     band.distributed.field.add(open.field, mean);
-    let motion = motion(open.old, v);
+    amend(before, band, node, index, v);
+}
+
+/// Gives an open node a velocity and books nothing.
+pub fn amend(before: Option<&mut Band>, band: &mut Band, node: usize, index: usize, v: [f64; 2]) {
+    let motion = motion(band.open[index].old, v);
     band.work.motion[node] = motion;
     if let Some(before) = before {
         let past = before.owned + node;

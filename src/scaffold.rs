@@ -5,7 +5,7 @@
 //! Elsewhere: test fixtures.
 
 use crate::body::{Body, Particle};
-use crate::boundary::Boundary;
+use crate::boundary::{Boundary, BoundaryContact};
 use crate::constitutive::{AnyLaw, LinearElastic};
 use crate::grid::Lattice;
 use crate::shape::ShapeFunction;
@@ -88,6 +88,7 @@ pub fn scene(brick: &Brick, law: AnyLaw, density: f64, points: Vec<Particle>, bo
             cfl: 0.4,
             max_time_step: 1.0,
             pic: PicShare::Fraction(0.0),
+            boundary_contact: BoundaryContact::Surface,
         },
     }
 }

@@ -7,8 +7,23 @@
 //! Elsewhere: rigid obstacles, and essential (Dirichlet) conditions at nodes: free slip, no slip, unilateral, fixed.
 
 pub mod nodes;
+pub mod search;
+pub mod surface;
 
 use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+
+/// Where boundaries act.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum BoundaryContact {
+    /// On their surface, wherever the grid lies. Clamps and moving boundaries act at nodes.
+    #[default]
+    Surface,
+    /// At the nodes inside them, as in the paper: as if the surface lay on the nodes behind it.
+    Nodes,
+}
 
 /// What resists sliding.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,8 +8,7 @@
 //! Elsewhere: unilateral (Signorini) contact with Coulomb friction as a complementarity problem, in impulses. There is
 //! no warm start: impulses begin at zero in each step.
 
-use super::{Boundary, Friction};
-use crate::grid::ActiveGrid;
+use super::{Boundary, Contact, Friction};
 use crate::space::{clockwise, dot, mean, minus, moment, plus, scaled};
 
 /// Most iterations for a node held by more than one boundary; perpendicular faces need two.
@@ -32,6 +31,8 @@ pub struct Hold {
     friction: f64,
     /// Whether the node cannot separate.
     bonded: bool,
+    /// Whether velocities that strain the material are held both ways while the boundary presses on the node.
+    both_ways: bool,
     /// Velocity of the boundary, m/s.
     wall: [f64; 2],
     /// Normal and tangential impulse of the step, N s.
@@ -41,7 +42,7 @@ pub struct Hold {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum HoldState {
+pub(super) enum HoldState {
     Apart,
     Slipping,
     Sticking,
@@ -77,28 +78,21 @@ impl Tally {
     }
 }
 
-/// Lists every node of `grid` held by a boundary that acts on any of `bodies`, in the order of the nodes.
-pub fn find_holds(boundaries: &[Boundary], bodies: &[usize], grid: &ActiveGrid, holds: &mut Vec<Hold>) {
-    holds.clear();
-    let tolerance = 1e-6 * grid.spacing;
-    let acting = || boundaries.iter().enumerate().filter(|(_, b)| b.acts_on(bodies));
-    for (node, x) in grid.nodes() {
-        let buried = acting().any(|(_, b)| b.height().is_infinite() && b.depth(x) >= -tolerance);
-        for (index, b) in acting() {
-            if let Some(contact) = b.hold(x, grid.spacing, tolerance, buried) {
-                holds.push(Hold {
-                    node: node as u32,
-                    boundary: index as u32,
-                    normal: contact.normal,
-                    along: contact.along,
-                    arm: minus(x, b.foot().into()),
-                    friction: b.friction.coefficient(),
-                    bonded: b.friction == Friction::Bonded,
-                    wall: b.velocity.into(),
-                    impulse: [0.0; 2],
-                    state: HoldState::Slipping,
-                });
-            }
+impl Hold {
+    /// A boundary that holds the node with this index in the grid, at `x` (m).
+    pub(super) fn new(node: usize, x: [f64; 2], index: usize, boundary: &Boundary, contact: Contact, both_ways: bool) -> Self {
+        Self {
+            node: node as u32,
+            boundary: index as u32,
+            normal: contact.normal,
+            along: contact.along,
+            arm: minus(x, boundary.foot().into()),
+            friction: boundary.friction.coefficient(),
+            bonded: boundary.friction == Friction::Bonded,
+            both_ways,
+            wall: boundary.velocity.into(),
+            impulse: [0.0; 2],
+            state: HoldState::Slipping,
         }
     }
 }
@@ -234,7 +228,10 @@ pub fn project(holds: &[Hold], v: &mut [f64; 2]) {
             match hold.state {
                 HoldState::Apart => {}
                 HoldState::Sticking => *v = hold.wall,
-                HoldState::Slipping => *v = minus(*v, scaled(hold.normal, approach.min(0.0))),
+                HoldState::Slipping => {
+                    let stop = if hold.both_ways { approach } else { approach.min(0.0) };
+                    *v = minus(*v, scaled(hold.normal, stop));
+                }
             }
         }
     }

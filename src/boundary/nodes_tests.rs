@@ -20,7 +20,9 @@ pub(super) fn holds_at(x: [f64; 2], boundaries: &[Boundary]) -> Vec<Hold> {
     };
     grid.index_columns();
     let mut holds = Vec::new();
-    find_holds(boundaries, &[0], &grid, &mut holds);
+    let mut found = Found::default();
+    find_holds(boundaries, &[0], &grid, BoundaryContact::Nodes, &mut found);
+    holds = found.holds;
     holds
 }
 

@@ -11,6 +11,7 @@ use super::boundary::Boundary;
 use super::contact::BodyContact;
 use super::grid::Grid;
 use super::material::Material;
+use crate::boundary::BoundaryContact;
 use crate::simulation::{PicShare, Scheme};
 
 /// Most particles a case may have; above this it is refused before any memory is asked for.
@@ -304,11 +305,13 @@ pub struct Numerics {
     pub pic_rate_per_s: Option<f64>,
     /// Upper bound of the time step. Default: none. Allowed: above 0. Example: `1.0e-4`.
     pub max_time_step_s: Option<f64>,
+    /// Where boundaries act. Default: `"surface"`. Example: `"nodes"`.
+    pub boundary_contact: BoundaryContact,
 }
 
 impl Default for Numerics {
     fn default() -> Self {
-        Numerics { scheme: Scheme::Musl, cfl: 0.3, pic_fraction: None, pic_rate_per_s: None, max_time_step_s: None }
+        Numerics { scheme: Scheme::Musl, cfl: 0.3, pic_fraction: None, pic_rate_per_s: None, max_time_step_s: None, boundary_contact: BoundaryContact::Surface }
     }
 }
 

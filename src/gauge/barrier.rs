@@ -121,6 +121,8 @@ impl BarrierGauge {
                 Source::Boundary(boundary) => {
                     let own = simulation.holds().filter(|h| h.boundary as usize == *boundary);
                     own.for_each(|hold| add(hold.along, hold.vector_impulse()));
+                    let crossed = simulation.sites().iter().filter(|s| s.boundary as usize == *boundary);
+                    crossed.for_each(|site| add(site.along, site.vector_impulse()));
                 }
                 Source::Body(body, face) => {
                     let own = simulation.contact_points().iter();

@@ -7,6 +7,7 @@ use crate::band::{Band, Workspace};
 use crate::body::{Block, Body, Particle};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, Tally};
+use crate::boundary::surface::Site;
 use crate::constitutive::Law;
 use crate::contact::rule::{ContactRule, ContactTally};
 use crate::ledger::{EnergyBalance, Ledger, Stock};
@@ -132,10 +133,11 @@ impl Simulation {
     /// What each boundary did in the last step to the bodies that share a velocity field with `body`, parallel to the
     /// boundaries. A body in contact has a field of its own.
     pub fn step_tallies_of(&self, body: usize) -> impl Iterator<Item = Tally> {
-        let field = self.fields.iter().find(|f| f.members.contains(&body));
+        let field = self.fields.iter().position(|f| f.members.contains(&body));
         (0..self.boundaries.len()).map(move |k| {
             let mut sum = Tally::default();
-            field.iter().flat_map(|f| &f.bands).for_each(|band| sum.add(&band.tallies[k]));
+            field.iter().flat_map(|&f| &self.fields[f].bands).for_each(|band| sum.add(&band.tallies[k]));
+            field.iter().filter_map(|&f| self.surface.tallies(f).get(k)).for_each(|tally| sum.add(tally));
             sum
         })
     }
@@ -170,7 +172,7 @@ impl Simulation {
         let implicit = |field: usize| self.implicit.iter().any(|b| b.field == field);
         let swept = self.fields.iter().enumerate().filter(|(k, _)| !implicit(*k));
         let bands = swept.map(|(_, f)| f.bands.len()).sum();
-        if self.coupling.is_empty() {
+        if self.in_one_sweep() {
             return sweep::parts(stages, bands, threads);
         }
         let sweeps = stages.split_inclusive(|(on, _)| *on == On::Nodes);
@@ -217,6 +219,11 @@ impl Simulation {
     /// What boundaries did to single nodes in the last step, in the order of the nodes.
     pub fn holds(&self) -> impl Iterator<Item = &Hold> {
         self.bands().flat_map(|b| &b.holds)
+    }
+
+    /// Where surfaces of boundaries cross lines of the grid, with what they did in the last step.
+    pub fn sites(&self) -> &[Site] {
+        self.surface.sites()
     }
 
     fn bands(&self) -> impl Iterator<Item = &Band> {

@@ -3,7 +3,9 @@
 use crate::band::Band;
 use crate::body::{Block, Body, Particle, Points};
 use crate::boundary::Boundary;
-use crate::boundary::nodes::{self, Hold};
+use crate::boundary::search::{self, Found};
+use crate::boundary::surface::Site;
+use crate::boundary::BoundaryContact;
 use crate::grid::ActiveGrid;
 use crate::layout::{Departed, SortRules, Sorter};
 use crate::momentum::{self, BodyForces};
@@ -19,7 +21,7 @@ pub(super) struct VelocityField {
     pub bands: Vec<Band>,
     /// Which nodes there are.
     pub grid: ActiveGrid,
-    holds: Vec<Hold>,
+    found: Found,
     sorter: Sorter,
     /// Points that left the domain at the last sort, with the index of their body in the simulation.
     pub departed: Vec<Departed>,
@@ -41,21 +43,29 @@ impl VelocityField {
     }
 
     /// Sorts the points into bands anew and finds what holds the nodes. `rules` lacks the bodies.
-    pub fn sort(&mut self, rules: &SortRules, boundaries: &[Boundary]) {
+    pub fn sort(&mut self, rules: &SortRules, boundaries: &[Boundary], contact: BoundaryContact) {
         let rules = SortRules { bodies: &self.bodies, ..*rules };
         self.departed.clear();
         self.sorter.sort(&rules, &mut self.bands, &mut self.grid, &mut self.departed);
         for departed in &mut self.departed {
             departed.body = self.members[departed.body];
         }
-        self.find_holds(boundaries);
+        self.find_holds(boundaries, contact);
         self.drift = 0.0;
     }
 
     /// Finds what holds each node.
-    pub fn find_holds(&mut self, boundaries: &[Boundary]) {
-        nodes::find_holds(boundaries, &self.members, &self.grid, &mut self.holds);
-        momentum::distribute_holds(&self.holds, boundaries.len(), &mut self.bands);
+    pub fn find_holds(&mut self, boundaries: &[Boundary], contact: BoundaryContact) {
+        // Bodies in implicit steps know of boundaries what acts at their nodes.
+        let implicit = self.bodies.iter().any(|b| b.implicit);
+        let contact = if implicit { BoundaryContact::Nodes } else { contact };
+        search::find_holds(boundaries, &self.members, &self.grid, contact, &mut self.found);
+        momentum::distribute_holds(&self.found.holds, boundaries.len(), &mut self.bands);
+    }
+
+    /// Where surfaces of boundaries cross the lines of its grid.
+    pub fn sites(&self) -> &[Site] {
+        &self.found.sites
     }
 
     /// What acts on every one of its nodes, of what acts on all fields.

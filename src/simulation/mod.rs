@@ -19,6 +19,7 @@ use failure::CRUSHED;
 use field::VelocityField;
 use implicit::{ImplicitBody, Turn};
 use stages::Stage;
+use surface::Surface;
 use sweep::{On, Pool};
 
 mod access;
@@ -28,6 +29,7 @@ mod field;
 mod implicit;
 mod scene;
 mod stages;
+mod surface;
 mod sweep;
 
 pub use coupling::ContactPoint;
@@ -59,6 +61,7 @@ pub struct Simulation {
     /// What they work with where one sweep does all of a step.
     pools: Vec<Pool>,
     coupling: Coupling,
+    surface: Surface,
     implicit: Vec<ImplicitBody>,
     speeds: Vec<f64>,
 
@@ -109,6 +112,7 @@ impl Simulation {
             step_tallies: vec![Tally::default(); boundaries.len()],
             ledger: Ledger::new(boundaries.len(), scene.contacts.len()),
             coupling: Coupling::new(&scene.contacts, &fields),
+            surface: Surface::default(),
             implicit: implicit::bodies(&fields),
             bodies,
             boundaries,
@@ -136,7 +140,10 @@ impl Simulation {
         self.time_step = self.next_time_step();
         let dt = self.time_step.dt;
         let stages = self.numerics.scheme.stages();
-        if self.coupling.is_empty() {
+        if self.coupling.stale {
+            self.find_open();
+        }
+        if self.in_one_sweep() {
             self.sweep_all(stages, dt, None);
         } else {
             self.sweep_coupled(stages, dt);
@@ -158,7 +165,7 @@ impl Simulation {
         let mut implicit = std::mem::take(&mut self.implicit);
         implicit.iter_mut().for_each(|b| std::mem::swap(&mut b.own, &mut self.fields[b.field]));
         let step = self.begin(dt);
-        let lent = self.coupling.is_empty().then_some(&mut pools);
+        let lent = self.in_one_sweep().then_some(&mut pools);
         let sweep = || {
             sweep::sweep(stages, &mut bands, lent, &|&stage, k, before, band| {
                 step.run(stage, &self.fields[k], before, band);
@@ -188,23 +195,51 @@ impl Simulation {
 
     /// Does a step on all fields, which wait for each other where their velocities meet.
     fn sweep_coupled(&mut self, stages: &[(On, Stage)], dt: f64) {
-        if self.coupling.stale {
-            self.coupling.rebuild(&mut self.fields);
-            self.implicit.iter_mut().for_each(|b| b.follow(&self.fields[b.field]));
-        }
         let mut after = None;
         for part in stages.split_inclusive(|(on, _)| *on == On::Nodes) {
             let last = part.last().map(|(_, stage)| *stage);
             self.sweep_all(part, dt, if last == Some(Stage::Momentum) { Some(Turn::Predict) } else { after.take() });
-            let Self { fields, coupling, boundaries, numerics, implicit, .. } = self;
+            let Self { fields, coupling, surface, boundaries, numerics, implicit, .. } = self;
             match last {
                 Some(Stage::Momentum) => {
-                    sweep::alone(|| coupling.exchange(fields, boundaries, numerics.shape, dt, implicit));
+                    sweep::alone(|| {
+                        if !coupling.is_empty() {
+                            coupling.exchange(fields, boundaries, numerics.shape, dt, implicit);
+                        }
+                        surface.solve(fields, boundaries, dt);
+                    });
                     after = Some(Turn::Finish);
                 }
-                Some(Stage::RemappedVelocities | Stage::OldVelocities) => sweep::alone(|| coupling.project(fields)),
+                Some(Stage::RemappedVelocities | Stage::OldVelocities) => sweep::alone(|| {
+                    coupling.project(fields);
+                    surface.project(fields);
+                }),
                 _ => {}
             }
+        }
+    }
+
+    /// Whether a step needs no place where the bands wait for each other.
+    fn in_one_sweep(&self) -> bool {
+        self.coupling.is_empty() && self.surface.is_empty()
+    }
+
+    /// Finds the nodes that the momentum balance leaves open, in a new layout of the fields.
+    fn find_open(&mut self) {
+        let Self { fields, coupling, surface, boundaries, lattice, .. } = self;
+        fields.iter_mut().flat_map(|f| &mut f.bands).for_each(|band| band.shared.clear());
+        coupling.list(fields);
+        surface.list(fields, boundaries.len());
+        for band in fields.iter_mut().flat_map(|f| &mut f.bands) {
+            band.shared.sort_unstable();
+            band.open.resize(band.shared.len(), Default::default());
+        }
+        coupling.find(fields);
+        surface.find(fields, boundaries, lattice.spacing);
+        if !self.in_one_sweep() {
+            let Self { fields, implicit, .. } = self;
+            fields.iter_mut().flat_map(|f| &mut f.bands).for_each(Band::make_room);
+            implicit.iter_mut().for_each(|b| b.follow(&fields[b.field]));
         }
     }
 
@@ -231,6 +266,11 @@ impl Simulation {
             ledger.damping.merge(&band.distributed.damping);
             ledger.side_walls.merge(&band.distributed.side_walls);
             ledger.field.merge(&band.distributed.field);
+        }
+        for field in 0..self.fields.len() {
+            for (sum, tally) in self.step_tallies.iter_mut().zip(self.surface.tallies(field)) {
+                sum.add(tally);
+            }
         }
         for (sum, tally) in ledger.contacts.iter_mut().zip(self.coupling.tallies()) {
             sum.merge(tally);
@@ -277,11 +317,8 @@ impl Simulation {
 
     fn sort(&mut self, field: usize) {
         let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
-        self.fields[field].sort(&rules, &self.boundaries);
+        self.fields[field].sort(&rules, &self.boundaries, self.numerics.boundary_contact);
         self.coupling.stale = true;
-        if !self.coupling.is_empty() {
-            self.fields[field].bands.iter_mut().for_each(Band::make_room);
-        }
         if let Some(body) = self.implicit.iter_mut().find(|b| b.field == field) {
             body.rebuild(field, &self.fields[field], self.numerics.shape);
         }
@@ -292,7 +329,8 @@ impl Simulation {
 
     /// Finds what holds each node.
     fn find_holds(&mut self) {
-        self.fields.iter_mut().for_each(|f| f.find_holds(&self.boundaries));
+        let contact = self.numerics.boundary_contact;
+        self.fields.iter_mut().for_each(|f| f.find_holds(&self.boundaries, contact));
         self.coupling.stale = true;
     }
 

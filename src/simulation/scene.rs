@@ -1,7 +1,7 @@
 //! What a simulation starts from.
 
 use crate::body::{Body, Particle};
-use crate::boundary::Boundary;
+use crate::boundary::{Boundary, BoundaryContact};
 use crate::contact::rule::ContactRule;
 use crate::grid::Lattice;
 use crate::shape::ShapeFunction;
@@ -57,6 +57,8 @@ pub struct Numerics {
     pub max_time_step: f64,
     /// Share of PIC.
     pub pic: PicShare,
+    /// Where boundaries act.
+    pub boundary_contact: BoundaryContact,
 }
 
 /// A field of accelerations (m/s2), given a point and the time (s). It is asked while bands are held by their threads, so it must not

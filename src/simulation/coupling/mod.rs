@@ -133,15 +133,27 @@ impl Coupling {
         self.interfaces[contact].set_friction(friction);
     }
 
-    /// Follows a new layout of the fields.
-    pub fn rebuild(&mut self, fields: &mut [VelocityField]) {
+    /// Follows a new layout of the fields, and tells their bands which nodes to leave open: those that several fields reach.
+    pub fn list(&mut self, fields: &mut [VelocityField]) {
         self.stale = false;
         self.solved.clear();
         self.pending.clear();
         self.touches.clear();
         self.points.clear();
         self.holds.clear();
-        self.find_shared(fields);
+        self.nodes.clear();
+        self.sides.clear();
+        if !self.is_empty() {
+            self.find_shared(fields);
+        }
+    }
+
+    /// Finds these nodes among those that the bands leave open, once these are sorted.
+    pub fn find(&mut self, fields: &[VelocityField]) {
+        for side in &mut self.sides {
+            let shared = &fields[side.field].bands[side.band].shared;
+            side.index = shared.partition_point(|&n| (n as usize) < side.node);
+        }
         for interface in &mut self.interfaces {
             interface.rebuild(fields, &self.nodes, &self.sides);
         }
@@ -154,10 +166,8 @@ impl Coupling {
         self.solved.reserve(self.nodes.len());
     }
 
-    /// Lists the nodes that several fields reach, and tells the bands.
+    /// Lists the nodes that several fields reach.
     fn find_shared(&mut self, fields: &mut [VelocityField]) {
-        self.nodes.clear();
-        self.sides.clear();
         for (f, field) in fields.iter().enumerate() {
             for (index, x) in field.grid.nodes() {
                 let at = field.grid.place(index);
@@ -182,19 +192,8 @@ impl Coupling {
                 }
             }
         }
-        for band in fields.iter_mut().flat_map(|f| &mut f.bands) {
-            band.shared.clear();
-        }
         for side in &self.sides {
             fields[side.field].bands[side.band].shared.push(side.node as u32);
-        }
-        for band in fields.iter_mut().flat_map(|f| &mut f.bands) {
-            band.shared.sort_unstable();
-            band.open.resize(band.shared.len(), Default::default());
-        }
-        for side in &mut self.sides {
-            let shared = &fields[side.field].bands[side.band].shared;
-            side.index = shared.partition_point(|&n| (n as usize) < side.node);
         }
     }
 }
