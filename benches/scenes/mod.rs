@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "no benchmark runs all of them")]
 
 use checkdam::body::{Body, Particle};
-use checkdam::boundary::{Boundary, Friction, BoundaryContact};
+use checkdam::boundary::{Boundary, BoundaryContact, Friction};
 use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic, NeoHookean};
 use checkdam::contact::rule::ContactRule;
 use checkdam::grid::Lattice;
@@ -66,7 +66,14 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
         gravity: [0.0, -9.81],
         contacts: vec![],
         side_wall_friction: 0.0,
-        numerics: Numerics { scheme, shape, cfl: 0.3, max_time_step: 1.0, pic: PicShare::Fraction(0.01), boundary_contact: BoundaryContact::Surface },
+        numerics: Numerics {
+            scheme,
+            shape,
+            cfl: 0.3,
+            max_time_step: 1.0,
+            pic: PicShare::Fraction(0.01),
+            boundary_contact: BoundaryContact::Surface,
+        },
     })
 }
 

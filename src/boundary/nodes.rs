@@ -33,6 +33,8 @@ pub struct Hold {
     bonded: bool,
     /// Whether velocities that strain the material are held both ways while the boundary presses on the node.
     both_ways: bool,
+    /// How far above the lower edge of a gate that opens it must lie to be held, m.
+    clear: f64,
     /// Velocity of the boundary, m/s.
     wall: [f64; 2],
     /// Normal and tangential impulse of the step, N s.
@@ -49,6 +51,11 @@ pub(super) enum HoldState {
 }
 
 impl Hold {
+    /// The same at so many metres above the lower edge of a gate and more.
+    pub(super) fn clear_of_edge(self, clear: f64) -> Self {
+        Self { clear, ..self }
+    }
+
     /// There is nothing at the node in this step.
     pub fn let_go(&mut self) {
         (self.impulse, self.state) = ([0.0; 2], HoldState::Apart);
@@ -80,7 +87,14 @@ impl Tally {
 
 impl Hold {
     /// A boundary that holds the node with this index in the grid, at `x` (m).
-    pub(super) fn new(node: usize, x: [f64; 2], index: usize, boundary: &Boundary, contact: Contact, both_ways: bool) -> Self {
+    pub(super) fn new(
+        node: usize,
+        x: [f64; 2],
+        index: usize,
+        boundary: &Boundary,
+        contact: Contact,
+        both_ways: bool,
+    ) -> Self {
         Self {
             node: node as u32,
             boundary: index as u32,
@@ -90,6 +104,7 @@ impl Hold {
             friction: boundary.friction.coefficient(),
             bonded: boundary.friction == Friction::Bonded,
             both_ways,
+            clear: 0.0,
             wall: boundary.velocity.into(),
             impulse: [0.0; 2],
             state: HoldState::Slipping,
@@ -242,7 +257,7 @@ impl Hold {
     #[inline]
     fn is_active(&self, boundaries: &[Boundary]) -> bool {
         let free = boundaries[self.boundary as usize].free_below;
-        free <= 0.0 || self.along >= free
+        free <= 0.0 || self.along >= free + self.clear
     }
 }
 

@@ -15,16 +15,20 @@ use crate::space::{clockwise, dot, mean, minus, moment, plus, scaled};
 /// A crossing of a boundary's surface with a grid line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Site {
-    /// The node behind the surface and the one before it.
-    pub nodes: [u32; 2],
-    /// Their shares.
-    pub weights: [f64; 2],
+    /// The node behind the surface and the one before it; then, at the end of a wall, those of the next line beyond it.
+    pub nodes: [u32; 4],
+    /// Shares of the first two at the crossing, and of the others at theirs.
+    shares: [[f64; 2]; 2],
+    /// How much of the velocity beyond the end of the wall may pass here, 0 to 1.
+    open: f64,
     /// Index of the boundary.
     pub boundary: u32,
     /// Unit normal, into the material.
     pub normal: [f64; 2],
     /// Position along the face from its foot, m.
     pub along: f64,
+    /// Which end of the wall is near, and half the distance of the lines along the face, m.
+    end: Option<(End, f64)>,
     /// Place, m.
     pub x: [f64; 2],
     /// Lever arm from the boundary's foot, m.
@@ -40,7 +44,16 @@ pub struct Site {
     state: HoldState,
 }
 
-/// The two nodes of a site in a step.
+/// The free end of a wall beside a crossing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The lower edge, with an opening below it.
+    Foot,
+    /// The upper edge.
+    Crest,
+}
+
+/// A node of a site in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SiteNode {
     /// Mass, kg.
@@ -52,21 +65,24 @@ pub struct SiteNode {
 }
 
 impl Site {
-    /// A crossing with `face`, between `nodes` with these weights; where it lies on the face (m along it, position).
+    /// A crossing with `face`, between `nodes` with these shares; where it lies on the face (m along it, position).
     pub(super) fn new(
         nodes: [usize; 2],
-        weights: [f64; 2],
+        shares: [f64; 2],
         boundary: usize,
         face: &Boundary,
         (along, x): (f64, [f64; 2]),
         plate: bool,
     ) -> Self {
+        let [a, b] = nodes.map(|n| n as u32);
         Self {
-            nodes: nodes.map(|n| n as u32),
-            weights,
+            nodes: [a, b, a, b],
+            shares: [shares, [0.0; 2]],
+            open: 0.0,
             boundary: boundary as u32,
             normal: face.normal.into(),
             along,
+            end: None,
             x,
             arm: minus(x, face.foot().into()),
             friction: face.friction.coefficient(),
@@ -77,9 +93,27 @@ impl Site {
         }
     }
 
-    /// Forgets the impulses of the last step.
-    pub fn reset(&mut self) {
+    /// The same beside an end of the wall, with nodes and shares of the crossing with the next line beyond it; `half` (m) is half the
+    /// distance of the two.
+    pub(super) fn beside(mut self, end: End, (nodes, shares): ([usize; 2], [f64; 2]), half: f64) -> Self {
+        let [a, b, ..] = self.nodes;
+        self.nodes = [a, b, nodes[0] as u32, nodes[1] as u32];
+        self.shares[1] = shares;
+        self.end = Some((end, half));
+        self
+    }
+
+    /// Forgets the impulses of the last step, and sees how far the wall covers the line: the share of the half lines on either side
+    /// that is free.
+    pub fn reset(&mut self, boundaries: &[Boundary]) {
         (self.impulse, self.state) = ([0.0; 2], HoldState::Apart);
+        let b = &boundaries[self.boundary as usize];
+        let closed = b.free_below <= 0.0 || self.along >= b.free_below;
+        self.open = match self.end {
+            None => f64::from(u8::from(!closed)),
+            Some((End::Foot, half)) => (0.5 + (b.free_below - self.along) / (2.0 * half)).clamp(0.0, 1.0),
+            Some((End::Crest, half)) => (0.5 + (self.along - b.height()) / (2.0 * half)).clamp(0.0, 1.0),
+        };
     }
 
     /// The vector impulse of the step on the material, N s.
@@ -88,39 +122,55 @@ impl Site {
         plus(scaled(self.normal, n), scaled(clockwise(self.normal), t))
     }
 
-    /// Velocity at the crossing.
-    fn velocity(&self, v: [[f64; 2]; 2]) -> [f64; 2] {
-        plus(scaled(v[0], self.weights[0]), scaled(v[1], self.weights[1]))
+    /// Velocity at the crossing, of these of the nodes.
+    fn velocity(&self, of: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
+        let [a, b] = self.shares[0];
+        let [i, j, ..] = self.nodes.map(|n| n as usize);
+        plus(scaled(of(i), a), scaled(of(j), b))
     }
 
-    /// One over the mass that an impulse at the crossing moves, 1/kg; `None` where there is no material on both sides of it.
-    fn mobility(&self, m: [f64; 2]) -> Option<f64> {
-        let share = |k: usize| if self.weights[k] == 0.0 { 0.0 } else { self.weights[k] * self.weights[k] / m[k] };
+    /// Speed at which the material passes into the boundary on the next line beyond the end of the wall, m/s, as far as it may pass
+    /// here: by the share of the line that is free, and no more than the material there can fill.
+    fn passing(&self, nodes: &[SiteNode]) -> f64 {
+        if self.open <= 0.0 {
+            return 0.0;
+        }
+        let [[a, b], [c, d]] = self.shares;
+        let [i, j, k, l] = self.nodes.map(|n| n as usize);
+        let here = a * nodes[i].mass + b * nodes[j].mass;
+        let there = c * nodes[k].mass + d * nodes[l].mass;
+        let v = plus(scaled(nodes[k].v, c), scaled(nodes[l].v, d));
+        (-dot(v, self.normal)).max(0.0) * self.open * (there / here).min(1.0)
+    }
+
+    /// One over the mass that an impulse moves, 1/kg; `None` where a node has none.
+    fn mobility(&self, nodes: &[SiteNode]) -> Option<f64> {
+        let share = |k: usize| {
+            let w = self.shares[0][k];
+            if w == 0.0 { 0.0 } else { w * w / nodes[self.nodes[k] as usize].mass }
+        };
         let sum = share(0) + share(1);
         (sum.is_finite() && sum > 0.0).then_some(sum)
     }
 
-    /// Gives an impulse at the crossing to both nodes.
-    fn give(&self, impulse: [f64; 2], nodes: [&mut SiteNode; 2]) {
-        for (node, w) in nodes.into_iter().zip(self.weights) {
-            if w > 0.0 {
-                node.v = plus(node.v, scaled(impulse, w / node.mass));
-            }
+    /// Gives an impulse to the nodes.
+    fn give(&self, impulse: [f64; 2], nodes: &mut [SiteNode]) {
+        for (&k, w) in self.nodes.iter().zip(self.shares[0]).filter(|(_, w)| *w != 0.0) {
+            let node = &mut nodes[k as usize];
+            node.v = plus(node.v, scaled(impulse, w / node.mass));
         }
     }
 
-    /// One Gauss-Seidel visit: brings the impulses up to date with the velocities of the nodes, and these with them.
-    pub fn relax(&mut self, boundaries: &[Boundary], nodes: [&mut SiteNode; 2], with_friction: bool) {
-        let b = &boundaries[self.boundary as usize];
-        let closed = b.free_below <= 0.0 || self.along >= b.free_below;
-        let mobility = self.mobility([nodes[0].mass, nodes[1].mass]).filter(|_| closed && self.free.is_finite());
-        let Some(mobility) = mobility else {
+    /// One Gauss-Seidel visit: brings the impulses up to date with the velocities of the nodes of its group, and these with them.
+    pub fn relax(&mut self, nodes: &mut [SiteNode], with_friction: bool) {
+        let shut = self.open < 1.0 && self.free.is_finite();
+        let Some(mobility) = self.mobility(nodes).filter(|_| shut) else {
             self.state = HoldState::Apart;
             return;
         };
         let (n, t) = (self.normal, clockwise(self.normal));
-        let rel = self.velocity([nodes[0].v, nodes[1].v]);
-        let approach = dot(rel, n) + self.free;
+        let rel = self.velocity(|k| nodes[k].v);
+        let approach = dot(rel, n) + self.free + self.passing(nodes);
         let normal = (self.impulse[0] - approach / mobility).max(0.0);
         let stick = self.impulse[1] - dot(rel, t) / mobility;
         // 0 x infinity must not arise.
@@ -136,13 +186,13 @@ impl Site {
         self.give(change, nodes);
     }
 
-    /// What the site did, given the nodes after the step.
-    pub fn tally(&self, nodes: [&SiteNode; 2]) -> Option<Tally> {
+    /// What the site did, given the nodes of its group after the step.
+    pub fn tally(&self, nodes: &[SiteNode]) -> Option<Tally> {
         if self.state == HoldState::Apart {
             return None;
         }
         let [n, t] = self.impulse;
-        let mean = self.velocity(nodes.map(|node| mean(node.old, node.v)));
+        let mean = self.velocity(|k| mean(nodes[k].old, nodes[k].v));
         let impulse = self.vector_impulse();
         Some(Tally {
             impulse,
@@ -154,13 +204,14 @@ impl Site {
 
     /// Applies to velocities that only strain the material what the step decided: what is held does not move along the normal, and
     /// what sticks does not move.
-    pub fn project(&self, nodes: [&mut SiteNode; 2]) {
-        let Some(mobility) = self.mobility([nodes[0].mass, nodes[1].mass]) else { return };
-        let v = self.velocity([nodes[0].v, nodes[1].v]);
+    pub fn project(&self, nodes: &mut [SiteNode]) {
+        let Some(mobility) = self.mobility(nodes) else { return };
+        let v = self.velocity(|k| nodes[k].v);
+        let free = self.free + self.passing(nodes);
         let stop = match self.state {
             HoldState::Apart => return,
-            HoldState::Sticking => plus(v, scaled(self.normal, self.free)),
-            HoldState::Slipping => scaled(self.normal, dot(v, self.normal) + self.free),
+            HoldState::Sticking => plus(v, scaled(self.normal, free)),
+            HoldState::Slipping => scaled(self.normal, dot(v, self.normal) + free),
         };
         self.give(scaled(stop, -1.0 / mobility), nodes);
     }

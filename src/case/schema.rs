@@ -311,7 +311,14 @@ pub struct Numerics {
 
 impl Default for Numerics {
     fn default() -> Self {
-        Numerics { scheme: Scheme::Musl, cfl: 0.3, pic_fraction: None, pic_rate_per_s: None, max_time_step_s: None, boundary_contact: BoundaryContact::Surface }
+        Numerics {
+            scheme: Scheme::Musl,
+            cfl: 0.3,
+            pic_fraction: None,
+            pic_rate_per_s: None,
+            max_time_step_s: None,
+            boundary_contact: BoundaryContact::Surface,
+        }
     }
 }
 

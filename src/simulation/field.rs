@@ -3,9 +3,9 @@
 use crate::band::Band;
 use crate::body::{Block, Body, Particle, Points};
 use crate::boundary::Boundary;
+use crate::boundary::BoundaryContact;
 use crate::boundary::search::{self, Found};
 use crate::boundary::surface::Site;
-use crate::boundary::BoundaryContact;
 use crate::grid::ActiveGrid;
 use crate::layout::{Departed, SortRules, Sorter};
 use crate::momentum::{self, BodyForces};

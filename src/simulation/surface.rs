@@ -69,18 +69,6 @@ fn with_before(bands: &mut [Band], k: usize) -> (Option<&mut Band>, &mut Band) {
     (before.last_mut(), &mut rest[0])
 }
 
-/// Two different elements.
-fn pair<T>(all: &mut [T], [a, b]: [u32; 2]) -> [&mut T; 2] {
-    let (a, b) = (a as usize, b as usize);
-    if a < b {
-        let (low, high) = all.split_at_mut(b);
-        [&mut low[a], &mut high[0]]
-    } else {
-        let (low, high) = all.split_at_mut(a);
-        [&mut high[0], &mut low[b]]
-    }
-}
-
 impl Surface {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
@@ -227,7 +215,7 @@ impl Surface {
                     nodes::reset(&mut band.holds[place.holds.clone()]);
                 }
             }
-            sites.iter_mut().for_each(Site::reset);
+            sites.iter_mut().for_each(|s| s.reset(boundaries));
             let held = places.iter().any(|p| !p.met && !p.holds.is_empty());
             let single = sites.len() == 1 && !held;
             for with_friction in [false, true] {
@@ -240,7 +228,7 @@ impl Surface {
                     let mut changed = false;
                     for site in sites.iter_mut() {
                         let was = site.vector_impulse();
-                        site.relax(boundaries, pair(states, site.nodes), with_friction);
+                        site.relax(states, with_friction);
                         changed |= was.map(f64::to_bits) != site.vector_impulse().map(f64::to_bits);
                     }
                     for (place, state) in places.iter().zip(states.iter_mut()) {
@@ -273,7 +261,7 @@ impl Surface {
             }
             for _ in 0..if sites.len() > 1 { 4 } else { 1 } {
                 for site in sites {
-                    site.project(pair(states, site.nodes));
+                    site.project(states);
                 }
                 for (place, state) in places.iter().zip(states.iter_mut()) {
                     let holds = &fields[place.field].bands[place.band].holds[place.holds.clone()];
@@ -299,7 +287,7 @@ fn book(
     let Some(first) = places.first() else { return };
     let tallies = &mut tallies[first.field];
     for site in sites {
-        if let Some(tally) = site.tally(site.nodes.map(|n| &states[n as usize])) {
+        if let Some(tally) = site.tally(states) {
             tallies[site.boundary as usize].add(&tally);
         }
     }
