@@ -1,6 +1,8 @@
 use super::tests::{holds_at, plane};
 use super::*;
-use crate::grid::Column;
+use crate::boundary::BoundaryContact;
+use crate::boundary::search::{Found, find_holds};
+use crate::grid::{ActiveGrid, Column};
 use nalgebra::Vector2;
 
 #[test]
@@ -14,8 +16,9 @@ fn holds_are_listed_by_node_with_their_place_on_the_boundary() {
     let mut grid =
         ActiveGrid { corner: [-1.0, -1.0], spacing: 1.0, inverse_spacing: 1.0, columns, ..ActiveGrid::default() };
     grid.index_columns();
-    let mut holds = holds_at([0.0, 0.0], &boundaries);
-    find_holds(&boundaries, &[0], &grid, &mut holds);
+    let mut found = Found::default();
+    find_holds(&boundaries, &[0], &grid, BoundaryContact::Nodes, &mut found);
+    let holds = found.holds;
     let found: Vec<_> = holds.iter().map(|h| (h.node, h.boundary, h.normal, h.along, h.arm)).collect();
     let mut expected = Vec::new();
     for (c, x) in [-1.0, 0.0, 1.0, 2.0].into_iter().enumerate() {
@@ -69,8 +72,9 @@ fn small_grids_have_small_tolerances_and_arms_begin_at_the_foot() {
         ..ActiveGrid::default()
     };
     grid.index_columns();
-    let mut holds = Vec::new();
-    find_holds(&[wall], &[0], &grid, &mut holds);
+    let mut found = Found::default();
+    find_holds(&[wall], &[0], &grid, BoundaryContact::Nodes, &mut found);
+    let holds = found.holds;
     let [hold] = &holds[..] else { panic!("the node on the face and not the one before it: {holds:?}") };
     assert_eq!(hold.node, 1);
     assert!(hold.arm[0].abs() < 1e-12 && (hold.arm[1] - h).abs() < 1e-12, "{hold:?}");

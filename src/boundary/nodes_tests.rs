@@ -1,6 +1,7 @@
 use super::*;
-use crate::boundary::Opening;
-use crate::grid::Column;
+use crate::boundary::search::{Found, find_holds};
+use crate::boundary::{BoundaryContact, Opening};
+use crate::grid::{ActiveGrid, Column};
 use nalgebra::Vector2;
 
 const M: f64 = 2.0;
@@ -19,11 +20,9 @@ pub(super) fn holds_at(x: [f64; 2], boundaries: &[Boundary]) -> Vec<Hold> {
         ..ActiveGrid::default()
     };
     grid.index_columns();
-    let mut holds = Vec::new();
     let mut found = Found::default();
     find_holds(boundaries, &[0], &grid, BoundaryContact::Nodes, &mut found);
-    holds = found.holds;
-    holds
+    found.holds
 }
 
 /// Velocity after the contact of a node at `x`, and what each boundary tallied.

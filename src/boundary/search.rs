@@ -58,15 +58,15 @@ impl<'a> Search<'a> {
         self.boundaries.iter().enumerate().filter(|(_, b)| b.acts_on(self.bodies))
     }
 
-    /// Whether a place lies inside a plane, where walls continue below their foot.
-    fn is_buried(&self, x: [f64; 2]) -> bool {
-        self.acting().any(|(_, b)| b.height().is_infinite() && b.depth(x) >= -self.tolerance)
+    /// Whether a place lies inside a plane, where walls continue below their foot, at least so deep (m).
+    fn is_buried(&self, x: [f64; 2], depth: f64) -> bool {
+        self.acting().any(|(_, b)| b.height().is_infinite() && b.depth(x) >= depth)
     }
 
     /// The node itself, if the boundary holds it.
     fn at_node(&self, node: usize, x: [f64; 2], index: usize) -> Option<Hold> {
         let b = &self.boundaries[index];
-        let contact = b.hold(x, self.grid.spacing, self.tolerance, self.is_buried(x))?;
+        let contact = b.hold(x, self.grid.spacing, self.tolerance, self.is_buried(x, -self.tolerance))?;
         Some(Hold::new(node, x, index, b, contact, self.contact == BoundaryContact::Surface))
     }
 
@@ -120,7 +120,11 @@ impl<'a> Search<'a> {
 
     /// Whether a place on the face, at `s` (m) along it, belongs to it, or lies at most `beyond` (m) off its ends.
     fn is_on_face(&self, b: &Boundary, x: [f64; 2], s: f64, beyond: f64) -> bool {
-        let bottom = if b.free_below <= 0.0 && self.is_buried(x) { f64::NEG_INFINITY } else { b.free_below.min(0.0) };
+        let bottom = if b.free_below <= 0.0 && self.is_buried(x, -self.tolerance) {
+            f64::NEG_INFINITY
+        } else {
+            b.free_below.min(0.0)
+        };
         let reach = beyond + self.tolerance;
         (bottom - reach..=b.height() + reach).contains(&s)
     }
@@ -133,7 +137,7 @@ impl<'a> Search<'a> {
         match () {
             () if b.height().is_infinite() => None,
             () if b.is_lifted() => Some(End::Foot),
-            () if s.abs() < reach && !self.is_buried(foot.into()) => Some(End::Foot),
+            () if s.abs() < reach && !self.is_buried(foot.into(), -self.tolerance) => Some(End::Foot),
             () if (s - b.height()).abs() < reach => Some(End::Crest),
             () => None,
         }
@@ -191,10 +195,8 @@ impl<'a> Search<'a> {
         let Some(end) = end else { return Some(site) };
         let beyond = at + face.tangent * if end == End::Foot { -line } else { line };
         // Nothing passes where there is no line between the end of the wall and what it stands on.
-        match self
-            .between(node, x, beyond, axis, toward)
-            .filter(|_| end == End::Crest || !self.is_buried(beyond.into()))
-        {
+        let open = end == End::Crest || !self.is_buried(beyond.into(), self.tolerance);
+        match self.between(node, x, beyond, axis, toward).filter(|_| open) {
             Some(next) => Some(site.beside(end, next, 0.5 * line)),
             None => Some(site),
         }

@@ -130,7 +130,7 @@ impl Site {
     }
 
     /// Speed at which the material passes into the boundary on the next line beyond the end of the wall, m/s, as far as it may pass
-    /// here: by the share of the line that is free, and no more than the material there can fill.
+    /// here: by the share of the line that is free, and less where there is less than half as much material.
     fn passing(&self, nodes: &[SiteNode]) -> f64 {
         if self.open <= 0.0 {
             return 0.0;
@@ -140,7 +140,7 @@ impl Site {
         let here = a * nodes[i].mass + b * nodes[j].mass;
         let there = c * nodes[k].mass + d * nodes[l].mass;
         let v = plus(scaled(nodes[k].v, c), scaled(nodes[l].v, d));
-        (-dot(v, self.normal)).max(0.0) * self.open * (there / here).min(1.0)
+        (-dot(v, self.normal)).max(0.0) * self.open * (2.0 * there / here).min(1.0)
     }
 
     /// One over the mass that an impulse moves, 1/kg; `None` where a node has none.

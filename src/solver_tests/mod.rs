@@ -5,6 +5,7 @@ mod contact;
 mod failures;
 mod forces;
 mod motion;
+mod surface;
 
 use crate::boundary::Boundary;
 use crate::constitutive::{AnyLaw, LinearElastic};

@@ -69,7 +69,7 @@ fn a_gate_holds_until_it_is_released() {
     assert!(close(heights[349], 3.5 * H), "{}", heights[349]);
     let front =
         |low: bool| sim.particles().filter(|(_, p)| (p.x[1] < H) == low).map(|(_, p)| p.x[0]).fold(0.0, f64::max);
-    assert!(front(true) > front(false) && front(false) > 0.38, "{} {}", front(true), front(false));
+    assert!(front(true) > front(false) && front(false) > 0.375, "{} {}", front(true), front(false));
 }
 
 #[test]
