@@ -33,7 +33,7 @@ pub struct Boundary {
     /// `kind = "wall"` or `"gate"`. Example: `"right"`.
     pub material_side: Option<MaterialSide>,
     /// Thickness on the side away from the material. Default: four cells. Allowed: only with `kind = "wall"` or
-    /// `"gate"`; above 0. Example: `0.1`.
+    /// `"gate"`; 0 or more, and with `numerics.boundary_contact = "nodes"` at least three cells. Example: `0.1`.
     pub thickness_m: Option<f64>,
     /// Names of the bodies that it acts on. Default: all bodies. Allowed: at least one name of `[[bodies]]`. Example:
     /// `["sand"]`.
@@ -167,7 +167,7 @@ impl Boundary {
         self.bodies.as_ref().is_none_or(|names| names.iter().any(|name| name == body))
     }
 
-    fn wall(&self, grid: &Grid) -> Option<Wall> {
+    pub(super) fn wall(&self, grid: &Grid) -> Option<Wall> {
         Some(Wall {
             foot_m: self.foot_m?,
             height_m: self.height_m?,

@@ -3,7 +3,7 @@
 use super::super::scene::{Brick, Material, points_by_number, scene};
 use super::super::{Fault, Outcome};
 use crate::RungFailure;
-use checkdam::boundary::{Boundary, Friction};
+use checkdam::boundary::{Boundary, BoundaryContact, Friction};
 use checkdam::check::{Check, Kind, Tolerance};
 use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
 use checkdam::simulation::{Scheme, Simulation};
@@ -15,7 +15,11 @@ const SAND: Material = Material::new(1e6, 0.3, 1500.0);
 
 /// All bits of the state of a long heap after some steps, folded into one number, and the parts into which its bands are divided
 /// for so many threads: eight need 35 bands, which 190 columns make.
-fn fingerprint(fault: &Fault, scheme: Scheme, threads: usize) -> Result<(u64, usize), RungFailure> {
+fn fingerprint(
+    fault: &Fault,
+    (scheme, contact): (Scheme, BoundaryContact),
+    threads: usize,
+) -> Result<(u64, usize), RungFailure> {
     let brick = Brick::new([0.0, 0.0], [190, 16], 0.01);
     let law = DruckerPrager::new(SAND.linear_elastic(fault), Cone::TriaxialCompression, 0.5, 0.1, 0.0, 0.0, true);
     let base = Boundary::plane("base", Vector2::zeros(), Vector2::new(-0.03, 1.0), Friction::Coulomb(0.4));
@@ -24,6 +28,7 @@ fn fingerprint(fault: &Fault, scheme: Scheme, threads: usize) -> Result<(u64, us
     let mut scene = scene(&brick, AnyLaw::DruckerPrager(law), SAND.density, points, vec![base]);
     scene.gravity = [3.0, -9.81];
     scene.numerics.scheme = scheme;
+    scene.numerics.boundary_contact = contact;
     let mut sim = Simulation::new(scene);
     for _ in 0..40 {
         sim.step()?;
@@ -44,12 +49,19 @@ fn fingerprint(fault: &Fault, scheme: Scheme, threads: usize) -> Result<(u64, us
 }
 
 pub fn run(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
-    for (scheme, name) in [(Scheme::Musl, "MUSL"), (Scheme::Usf, "USF")] {
+    // In the one sweep of a step, and in steps that wait where the surface crosses the grid.
+    let [nodes, surface] = [BoundaryContact::Nodes, BoundaryContact::Surface];
+    for (method, name) in [
+        ((Scheme::Musl, nodes), "MUSL"),
+        ((Scheme::Usf, nodes), "USF"),
+        ((Scheme::Musl, surface), "MUSL on the surface"),
+        ((Scheme::Usf, surface), "USF on the surface"),
+    ] {
         let mut prints = Vec::new();
         for threads in [1, 2, 3, 8] {
             // Without threads to be had, or a part for each, there is nothing to compare; the count below then fails.
             if let Ok(pool) = ThreadPoolBuilder::new().num_threads(threads).build() {
-                let (print, parts) = pool.install(|| fingerprint(fault, scheme, threads))?;
+                let (print, parts) = pool.install(|| fingerprint(fault, method, threads))?;
                 prints.extend((parts == threads).then_some(print));
             }
         }
@@ -63,7 +75,7 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
     let mut prints = Vec::new();
     for unit in [VectorUnit::Plain, VectorUnit::Avx2, VectorUnit::Avx512] {
         limit_vector_unit(unit);
-        prints.push(fingerprint(fault, Scheme::Musl, 1));
+        prints.push(fingerprint(fault, (Scheme::Musl, surface), 1));
     }
     limit_vector_unit(VectorUnit::Avx512);
     let first = prints[0].clone()?;

@@ -163,10 +163,19 @@ fn implausible_values_are_warnings() {
 /// The flume's gate is filled to its brim: on a grid line that holds, between two of them it does not.
 #[test]
 fn a_fill_up_to_a_crest_between_grid_lines_is_a_warning() {
-    let of = |text: &str| parse(text, "some/case.toml").unwrap_or_else(|error| panic!("{error}")).warnings;
+    let of = |text: &str| {
+        let at_nodes = text.replacen("cfl = 0.3", "boundary_contact = \"nodes\"\ncfl = 0.3", 1);
+        // Contact on the surface holds the fill wherever the crest lies.
+        assert_eq!(
+            parse(text, "some/case.toml").unwrap_or_else(|error| panic!("{error}")).warnings,
+            Vec::<String>::new()
+        );
+        parse(&at_nodes, "some/case.toml").unwrap_or_else(|error| panic!("{error}")).warnings
+    };
     let gate = |height: &str, cell: &str| {
         let gate = "height_m = 0.5 ";
-        changed(gate, &format!("height_m = {height} ")).replacen("spacing_m = 0.01", &format!("spacing_m = {cell}"), 1)
+        let thick = changed(gate, &format!("height_m = {height} ")).replace("thickness_m = 0.1", "thickness_m = 0.2");
+        thick.replacen("spacing_m = 0.01", &format!("spacing_m = {cell}"), 1)
     };
     // 0.5 m is 37.5 cells of 13.33 mm, 12.5 of 40 mm; 0.52 m is within a cell of the fill, 0.54 m is not.
     for (height, cell, fix) in [
@@ -194,6 +203,46 @@ fn a_fill_up_to_a_crest_between_grid_lines_is_a_warning() {
     assert_eq!(of(&moved).len(), 1);
     let away = moved.replacen("foot_m = [0.0, 0.0]", "foot_m = [0.1, 0.0]", 1);
     assert_eq!(of(&away).len(), 0);
+}
+
+#[test]
+fn a_wall_that_its_contact_cannot_hold_is_refused() {
+    let thin = |thickness: &str, contact: &str| {
+        let text = changed(
+            "thickness_m = 0.1\ncontact = \"coulomb\"",
+            &format!("thickness_m = {thickness}\ncontact = \"coulomb\""),
+        );
+        text.replacen("cfl = 0.3", &format!("boundary_contact = \"{contact}\"\ncfl = 0.3"), 1)
+    };
+    for thickness in ["0", "0.008", "0.029"] {
+        let text = thin(thickness, "nodes");
+        let report = report_of(&text);
+        let line = format!("--> some/case.toml:{}:", line_of(&text, &format!("thickness_m = {thickness}\n")));
+        for part in [line.as_str(), "boundaries[3].thickness_m", "0.03 m or more, three cells", "\"surface\""] {
+            assert!(report.contains(part), "no {part:?} in\n{report}");
+        }
+        assert!(parse(&thin(thickness, "surface"), "a").is_ok());
+    }
+    assert!(parse(&thin("0.03", "nodes"), "a").is_ok());
+    assert!(report_of(&thin("-0.01", "surface")).contains("thickness_m >= 0"));
+    let low = changed("height_m = 0.6                     # [paper]", "height_m = 0.009 # low");
+    assert!(report_of(&low).contains("one cell: the flow does not see a lower wall"), "{}", report_of(&low));
+}
+
+#[test]
+fn an_opening_of_few_cells_is_a_warning() {
+    let of = |text: &str| parse(text, "some/case.toml").unwrap_or_else(|error| panic!("{error}")).warnings;
+    for (foot, open) in [("[1.2, 0.03]", Some("0.03 m open below `barrier`: 3 cells")), ("[1.2, 0.13]", None)] {
+        let warnings = of(&changed("foot_m = [1.2, 0.0]", &format!("foot_m = {foot}")));
+        assert_eq!(warnings.len(), usize::from(open.is_some()), "{warnings:?}");
+        assert!(
+            warnings.iter().all(|w| w.contains(open.unwrap_or_default()) && w.contains("boundaries[3].foot_m")),
+            "{warnings:?}"
+        );
+    }
+    let raised = of(&changed("opening = \"vanish\"", "opening = \"raise\"\nopening_m = 0.04"));
+    assert!(raised.len() == 1 && raised[0].contains("0.04 m open below gate `gate`: 4 cells"), "{raised:?}");
+    assert!(of(&changed("opening = \"vanish\"", "opening = \"raise\"\nopening_m = 0.12")).is_empty());
 }
 
 #[test]

@@ -29,7 +29,6 @@ impl Checker<'_> {
             self.acts_on(&at, boundary);
             for (key, number, example) in [
                 ("height_m", boundary.height_m, 0.6),
-                ("thickness_m", boundary.thickness_m, 0.1),
                 ("lift_speed_m_per_s", boundary.lift_speed_m_per_s, 1.0),
                 ("opening_m", boundary.opening_m, 0.05),
             ] {

@@ -6,6 +6,7 @@ mod contacts;
 mod cost;
 mod materials;
 mod sections;
+mod walls;
 mod warnings;
 
 use serde::Serialize;
@@ -44,6 +45,7 @@ pub fn validate(case: &Case) -> Findings {
     checker.sections();
     checker.materials();
     checker.boundaries();
+    checker.walls();
     checker.bodies();
     checker.contacts();
     checker.cost();

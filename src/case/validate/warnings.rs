@@ -1,6 +1,8 @@
 //! Values that can be run and look like mistakes, mostly of units.
 
+use super::walls::narrow_openings;
 use super::{Problem, text, toml_text};
+use crate::boundary::BoundaryContact;
 use crate::case::boundary::{Boundary, Shape};
 use crate::case::geometry::{direction, penetration_of_rectangle};
 use crate::case::material::Material;
@@ -85,7 +87,7 @@ impl Warnings {
 const BELOW_CREST_CELLS: f64 = 1.0;
 
 impl Warnings {
-    /// A gate's contact acts at nodes. Where its crest lies between two of them, sand that reaches up to it creeps over it, and
+    /// A gate whose contact acts at nodes. Where its crest lies between two of them, sand that reaches up to it creeps over it, and
     /// does not come to rest.
     fn brim(&mut self, at: &KeyPath, case: &Case, boundary: &Boundary) {
         let Some(Shape::Gate(gate, _)) = boundary.shape(&case.grid) else { return };
@@ -140,8 +142,11 @@ pub(super) fn warnings(case: &Case) -> Vec<Problem> {
             warnings.add_if(friction > 2.0, &at.key("friction"), friction, "a coefficient, not an angle", &fix);
         }
         warnings.outside(&at, case, boundary);
-        warnings.brim(&at, case, boundary);
+        if case.numerics.boundary_contact == BoundaryContact::Nodes {
+            warnings.brim(&at, case, boundary);
+        }
     }
+    warnings.0.extend(narrow_openings(case));
     if let Some(tilt) = &case.stages.tilt {
         let turn = case.gravity.inclination_deg - case.gravity.settle_inclination_or_default_deg();
         let path = KeyPath::top("stages").key("tilt").key("duration_s");
