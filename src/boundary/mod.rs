@@ -1,13 +1,13 @@
 //! Rigid boundaries: planes, walls of finite height at any angle to the grid, and gates.
 //!
-//! A boundary acts on the nodes inside it: material may leave them but not press into them, and slides on them with
-//! Coulomb friction. A clamp holds material back as well, on the nodes nearest to its plane and behind it. [`Boundary`]
-//! is the geometry, [`nodes`] the law at a node.
+//! Material may leave a boundary but not press into it, and slides on it with Coulomb friction. A clamp holds material back
+//! as well, on the nodes nearest to its plane and behind it. [`Boundary`] is the geometry, [`nodes`] the law at a node,
+//! [`surface`] the law where the surface passes between nodes; `search` finds both.
 //!
 //! Elsewhere: rigid obstacles, and essential (Dirichlet) conditions at nodes: free slip, no slip, unilateral, fixed.
 
 pub mod nodes;
-pub mod search;
+pub(crate) mod search;
 pub mod surface;
 
 use nalgebra::Vector2;

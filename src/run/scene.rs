@@ -163,7 +163,7 @@ pub fn index(case: &Case, name: &str) -> Option<usize> {
     case.bodies.iter().position(|b| b.name == name)
 }
 
-/// Unit vector at an angle from the x axis; exact along the axes, where walls must meet nodes.
+/// Unit vector at an angle from the x axis; exact along the axes, where walls may pass through nodes.
 fn direction(angle_deg: f64) -> Vector2<f64> {
     case::direction(angle_deg).into()
 }

@@ -218,30 +218,11 @@ impl Surface {
             sites.iter_mut().for_each(|s| s.reset(boundaries));
             let held = places.iter().any(|p| !p.met && !p.holds.is_empty());
             let single = sites.len() == 1 && !held;
-            for with_friction in [false, true] {
-                // In a corner, friction finds what sliding the normal impulses leave; see `nodes::solve`.
-                if single && !with_friction {
-                    continue;
-                }
+            // In a corner, friction finds what sliding the normal impulses leave; see `nodes::solve`.
+            for with_friction in if single { &[true][..] } else { &[false, true] } {
                 for _ in 0..if single { 1 } else { SWEEPS } {
-                    let mut before = [0.0; 2];
-                    let mut changed = false;
-                    for site in sites.iter_mut() {
-                        let was = site.vector_impulse();
-                        site.relax(states, with_friction);
-                        changed |= was.map(f64::to_bits) != site.vector_impulse().map(f64::to_bits);
-                    }
-                    for (place, state) in places.iter().zip(states.iter_mut()) {
-                        if place.met || place.holds.is_empty() || state.mass <= 0.0 {
-                            continue;
-                        }
-                        before = state.v;
-                        let holds = &mut fields[place.field].bands[place.band].holds[place.holds.clone()];
-                        nodes::visit(holds, boundaries, state.mass, &mut state.v, with_friction);
-                        changed |= before.map(f64::to_bits) != state.v.map(f64::to_bits);
-                    }
-                    let _ = before;
-                    if !changed {
+                    // Further sweeps would not change a bit.
+                    if !visit(places, states, sites, fields, boundaries, *with_friction) {
                         break;
                     }
                 }
@@ -274,6 +255,34 @@ impl Surface {
             }
         }
     }
+}
+
+/// One visit to the crossings of a group and to what else holds its nodes; whether it changed anything.
+fn visit(
+    places: &[Place],
+    states: &mut [SiteNode],
+    sites: &mut [Site],
+    fields: &mut [VelocityField],
+    boundaries: &[Boundary],
+    with_friction: bool,
+) -> bool {
+    let bits = |v: [f64; 2]| v.map(f64::to_bits);
+    let mut changed = false;
+    for site in sites {
+        let before = site.vector_impulse();
+        site.relax(states, with_friction);
+        changed |= bits(before) != bits(site.vector_impulse());
+    }
+    for (place, state) in places.iter().zip(states) {
+        if place.met || place.holds.is_empty() || state.mass <= 0.0 {
+            continue;
+        }
+        let before = state.v;
+        let holds = &mut fields[place.field].bands[place.band].holds[place.holds.clone()];
+        nodes::visit(holds, boundaries, state.mass, &mut state.v, with_friction);
+        changed |= bits(before) != bits(state.v);
+    }
+    changed
 }
 
 /// Books what the crossings and nodes of a group did, and lets the bands see how the nodes move.

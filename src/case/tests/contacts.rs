@@ -48,6 +48,15 @@ fn what_is_wrong_with_a_contact_is_said() {
     let line = |replace: &str, by: &str| with(&CONTACT.replacen(replace, by, 1));
     for (text, parts) in [
         (line("\"sand\"]", "\"snad\"]"), vec!["contacts[0].bodies[1] = \"snad\"", "sand"]),
+        (
+            line("\"fence\", \"sand\"", "\"sand\", \"fence\""),
+            vec!["contacts[0].bodies: `sand` would be the structure", "granular", "structure = \"fence\""],
+        ),
+        (
+            with(&format!("{CONTACT}structure = \"sand\"\n")),
+            vec!["contacts[0].structure: `sand` would be the structure", "name `fence` first"],
+        ),
+        (with(&format!("{CONTACT}normal = \"average\"\n")), vec!["contacts[0].normal", "slides half as far"]),
         (line(", \"sand\"]", "]"), vec!["contacts[0].bodies", "two names", "name two bodies"]),
         (line("\"sand\"]", "\"fence\"]"), vec!["two different bodies"]),
         (line("0.4", "-0.4"), vec!["contacts[0].friction = -0.4", "friction >= 0"]),

@@ -14,6 +14,7 @@ impl Checker<'_> {
             self.contact_bodies(&at, index, contact);
             self.not_negative(&at.key("friction"), contact.friction, 0.4);
             self.contact_fields(&at, contact);
+            self.contact_structure(&at, contact);
         }
         if self.is_clean(&list) && self.is_clean(&KeyPath::top("bodies")) {
             self.forgotten(&list);
@@ -85,6 +86,34 @@ impl Checker<'_> {
                 self.problem(&path, what, &offset, "only with gap = \"positions\"", fix);
             }
         }
+    }
+
+    /// The faces of a structure are those that it starts with: what flows has none to keep. Gradients of two bodies, with a gap from
+    /// the extents of their points, let a block stick or slide half as far as it should (rung `contact`).
+    fn contact_structure(&mut self, at: &KeyPath, contact: &BodyContact) {
+        let granular = |name: &str| {
+            let body = self.case.bodies.iter().find(|b| b.name == name);
+            body.and_then(|b| self.case.materials.get(&b.material)).is_some_and(|m| m.drucker_prager().is_some())
+        };
+        let (normal, gap) = (contact.normal.unwrap_or_default(), contact.gap.unwrap_or_default());
+        if normal == NormalKind::Average && gap == GapKind::Extents {
+            let allowed = "normal = \"average\" only with another gap: with this one a block sticks, or slides half as far as it should";
+            let fix = "use normal = \"nearest_face\", or gap = \"positions\" or \"approach\"";
+            self.not_allowed(&at.key("normal"), &"average", allowed, fix);
+        }
+        let Some(structure) = contact.structure_name().filter(|_| normal == NormalKind::NearestFace) else { return };
+        if !granular(structure) {
+            return;
+        }
+        let allowed = "a structure that keeps its faces, so not a granular body";
+        let other = contact.bodies.iter().find(|name| *name != structure && !granular(name));
+        let fix = match other {
+            Some(other) => format!("add structure = \"{other}\", or name `{other}` first"),
+            None => "use normal = \"regression\": neither of the two keeps its faces".to_owned(),
+        };
+        let path = at.key(if contact.structure.is_some() { "structure" } else { "bodies" });
+        let what = format!("{path}: `{structure}` would be the structure of the contact, and is granular");
+        self.problem(&path, what, &structure, allowed, &fix);
     }
 
     /// A body that is in a contact passes through bodies with which it has none.
