@@ -25,6 +25,7 @@ pub mod report;
 pub mod scene;
 pub mod self_weight;
 pub mod sliding_block;
+pub mod wall_place;
 pub mod wall_pressure;
 
 pub use fault::{Fault, FaultKind};
@@ -130,6 +131,7 @@ ladder! { $
     exactness,
     self_weight,
     sliding_block,
+    wall_place,
     drucker_prager_point,
     celerity,
     energy,

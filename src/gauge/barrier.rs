@@ -69,7 +69,7 @@ impl BarrierGauge {
     fn on(simulation: &Simulation, source: Source) -> Self {
         let b = source.face(simulation);
         let bin_height = simulation.spacing();
-        let bins = if b.height().is_finite() { (b.height() / bin_height).round() as usize + 1 } else { 0 };
+        let bins = if b.height().is_finite() { (b.height() / bin_height - NEAR).ceil() as usize + 1 } else { 0 };
         // The wall turns over when its crest moves away from the material, against the normal.
         let turn = (b.tangent.x * -b.normal.y - b.tangent.y * -b.normal.x).signum();
         Self {
@@ -113,8 +113,9 @@ impl BarrierGauge {
         if normal != 0.0 || tangential != 0.0 {
             let (profile, height) = (&mut self.profile, self.bin_height);
             let mut add = |along: f64, p: [f64; 2]| {
-                if let Some(sum) = profile.get_mut((along / height).round().max(0.0) as usize) {
-                    *sum += p[0] * b.normal.x + p[1] * b.normal.y;
+                let normal = p[0] * b.normal.x + p[1] * b.normal.y;
+                for (bin, share) in shares(along / height, profile.len()) {
+                    profile[bin] += share * normal;
                 }
             };
             match &self.source {
@@ -152,8 +153,9 @@ impl BarrierGauge {
         sample
     }
 
-    /// Mean pressure by height since the last call, as (height above the foot in m, pressure in Pa). The bin at a node reaches
-    /// half a cell up and down; at foot and crest only the half that lies on the wall.
+    /// Mean pressure by height since the last call, as (height above the foot in m, pressure in Pa). A bin reaches half a cell up and
+    /// down; at foot and crest only the half that lies on the wall. Force and moment of the profile are those of the normal forces on
+    /// the face; what acts below the foot, inside a base, counts at the foot.
     pub fn profile(&mut self, thickness: f64) -> Vec<(f64, f64)> {
         let last = self.profile.len().saturating_sub(1);
         let per = if self.profile_duration > 0.0 { 1.0 / (self.profile_duration * thickness) } else { 0.0 };
@@ -204,6 +206,23 @@ impl BarrierGauge {
         let (p, b) = (self.source.impulse(simulation).0, self.face(simulation));
         -(p[0] * b.normal.x + p[1] * b.normal.y) / simulation.time_step().dt
     }
+}
+
+/// Heights that differ by less than this share of a bin are the same.
+const NEAR: f64 = 1e-6;
+
+/// The two of `bins` bins beside a height (in bins), with their shares of what acts there: linear between them, so that force and
+/// moment about the foot are kept. What acts below the first, where a wall goes on inside its base, or above the last counts there.
+fn shares(height: f64, bins: usize) -> impl Iterator<Item = (usize, f64)> {
+    let height = height.clamp(0.0, bins.saturating_sub(1) as f64);
+    let (whole, low) = (height.round(), height.floor());
+    let near = (height - whole).abs() < NEAR;
+    let [first, second] =
+        if near { [(whole, 1.0), (whole, 0.0)] } else { [(low, low + 1.0 - height), (low + 1.0, height - low)] };
+    [first, second]
+        .into_iter()
+        .filter(move |(_, share)| bins > 0 && *share > 0.0)
+        .map(|(bin, share)| (bin as usize, share))
 }
 
 /// 1 if what contact number `contact` gives is given to `body`, -1 if it is taken from it, `None` if the body is not in it.

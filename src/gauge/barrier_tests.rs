@@ -202,3 +202,34 @@ fn planes_have_no_profile_and_each_boundary_its_own_gauge() {
     let sum: f64 = rows.iter().enumerate().map(|(k, r)| r.1 * if k % 4 == 0 { 0.5 * H } else { H }).sum();
     assert!(close(sum * THICKNESS, gauges[1].sample().normal));
 }
+
+/// The foot and the crest anywhere between two nodes, and a wall that leans: force and moment of the profile are those of the forces.
+#[test]
+fn the_moment_of_the_profile_is_that_of_the_forces_wherever_the_foot_lies() {
+    for lean in [0.0, 0.2] {
+        for k in 0..8 {
+            let foot = Vector2::new(0.003, (0.125 * f64::from(k) - 0.5) * H);
+            let brick = Brick::new([-3.0 * H, H], [3, 4], H);
+            let law = AnyLaw::LinearElastic(LinearElastic::new(1e5, 0.2));
+            let mut points = brick.points();
+            points.iter_mut().for_each(|p| p.v = [2.0, 0.3]);
+            let tangent = Vector2::new(libm::sin(lean), libm::cos(lean));
+            let wall = Boundary::wall("wall", foot, tangent, HEIGHT + 0.3 * H, 4.0 * H, Friction::Smooth);
+            let mut sim = Simulation::new(scene(&brick, law, DENSITY, points, vec![wall]));
+            let mut gauge = BarrierGauge::new(&sim, 0);
+            for _ in 0..20 {
+                sim.step().unwrap();
+                gauge.after_step(&sim);
+            }
+            let sample = gauge.sample();
+            let rows = gauge.profile(THICKNESS);
+            let last = rows.len() - 1;
+            let force = |k: usize| rows[k].1 * if k == 0 || k == last { 0.5 * H } else { H } * THICKNESS;
+            let sum: f64 = (0..=last).map(force).sum();
+            let moment: f64 = (0..=last).map(|k| force(k) * rows[k].0).sum();
+            assert!(sample.normal > 10.0 && close(sum, sample.normal), "{lean} {k}: {sum} {sample:?}");
+            // Nodes behind the face, which shape functions barely reach, have an arm of their own.
+            assert!((moment / sample.moment - 1.0).abs() < 0.005, "{lean} {k}: {moment} {sample:?}");
+        }
+    }
+}
