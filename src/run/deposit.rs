@@ -44,8 +44,8 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Depo
     let barrier = experiment.barrier()?.boundary();
     let departed = barrier.map_or(sim.ledger().departed_mass, |b| sim.ledger().departed_behind[b]);
     let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - (last.overtopped - departed);
-    let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
-    let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
+    let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base.normal);
+    let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base.friction);
     let weight = mass * along;
     let limit = mu * base_normal;
     // What the other boundaries and bodies take, from the ledger: the barrier, and whatever else the deposit leans on. What clamps

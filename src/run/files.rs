@@ -16,9 +16,8 @@ use super::stage::RunError;
 use super::summary::Summary;
 use super::table::{Names, OpenTable, TableKind};
 use crate::case::{Case, file_name};
-use crate::gauge::StructureSample;
-use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
+use crate::gauge::{FieldCell, StationSample, StructureSample};
 use crate::output::{self, Field, OutputError, PvdWriter, Values};
 use crate::simulation::{ContactPoint, Simulation};
 use std::fs;
@@ -106,7 +105,7 @@ struct Folder {
     further: Vec<BarrierTables>,
     energy: OpenTable<EnergyRow>,
     momentum: OpenTable<MomentumRow>,
-    stations: Option<OpenTable<[f64; 4]>>,
+    stations: Option<OpenTable<(f64, StationSample)>>,
     field: Option<OpenTable<(f64, FieldCell)>>,
     contact: Option<OpenTable<columns::Touching>>,
     frames: Option<PvdWriter>,
@@ -261,9 +260,8 @@ impl Recorder for Folder {
         self.close()
     }
 
-    fn stations(&mut self, time: f64, rows: &[(f64, f64, f64)]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.stations else { return Ok(()) };
-        rows.iter().try_for_each(|&(x, depth, velocity)| table.row(&[time, x, depth, velocity]))
+    fn station(&mut self, time: f64, sample: &StationSample) -> Result<(), OutputError> {
+        self.stations.as_mut().map_or(Ok(()), |table| table.row(&(time, *sample)))
     }
 
     fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {

@@ -65,13 +65,13 @@ fn a_base_without_a_barrier_carries_what_rests_on_it() {
     let (weight, angle) = (4.0 * 9.81, 20.0f64.to_radians());
     let mean =
         |value: fn(&HistoryRow) -> f64| records.history.iter().map(value).sum::<f64>() / records.history.len() as f64;
-    let (normal, friction) = (mean(|r| r.base_normal), mean(|r| r.base_friction));
+    let (normal, friction) = (mean(|r| r.base.normal), mean(|r| r.base.friction));
     assert!((normal / (weight * angle.cos()) - 1.0).abs() < 3e-3, "{normal} of {}", weight * angle.cos());
     // Up the flume, against the weight.
     assert!((friction / (-weight * angle.sin()) - 1.0).abs() < 3e-3, "{friction} of {}", -weight * angle.sin());
     // Beside a barrier it reads the same.
     let (_, beside) = run(&block("barrier = \"The wall\"\nbase = \"floor\"", SETTLE, false));
-    assert!(records.history.iter().zip(&beside.history).all(|(a, b)| a.base_normal == b.base_normal));
+    assert!(records.history.iter().zip(&beside.history).all(|(a, b)| a.base == b.base));
 }
 
 #[test]
