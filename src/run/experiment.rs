@@ -3,13 +3,13 @@
 //! Elsewhere: the driver; stages are load steps.
 
 use super::ProgressFn;
-use super::gauges::{Barrier, Gauges, of_barrier};
+use super::gauges::{Barrier, Gauges, Named, of_barrier};
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
 use super::rest::RestWatch;
 use super::scene;
 use super::stage::{End, Progress, RunError, Stage, StageFacts};
 use crate::case::Case;
-use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, flow, velocity_field};
+use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, WindowGauge, flow, velocity_field};
 use crate::output::OutputError;
 use crate::simulation::Simulation;
 
@@ -63,7 +63,17 @@ impl Experiment {
 
     /// Index of the base.
     pub fn base(&self) -> Option<usize> {
-        self.gauges.base.as_ref().map(BaseGauge::boundary)
+        self.bases().first().map(|b| b.gauge.boundary())
+    }
+
+    /// The bases, in the order of the case. The first is what is meant by the base.
+    pub(super) fn bases(&self) -> &[Named<BaseGauge>] {
+        &self.gauges.bases
+    }
+
+    /// The windows with names, in the order of the case.
+    pub(super) fn windows(&self) -> &[Named<WindowGauge>] {
+        &self.gauges.windows
     }
 
     /// Gauges of the case.

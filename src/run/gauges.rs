@@ -131,6 +131,15 @@ impl BarrierSample {
     }
 }
 
+/// A gauge with its name in the case.
+#[derive(Debug)]
+pub(super) struct Named<G> {
+    /// The name.
+    pub name: String,
+    /// The gauge.
+    pub gauge: G,
+}
+
 /// The gauges of a case.
 #[derive(Debug)]
 pub(super) struct Gauges {
@@ -138,12 +147,14 @@ pub(super) struct Gauges {
     pub barriers: Vec<Barrier>,
     /// Indices of those that are bodies: what is said of the flow leaves them out.
     pub structures: Vec<usize>,
-    /// The base.
-    pub base: Option<BaseGauge>,
+    /// Bases, the first of which is what is meant by the base.
+    pub bases: Vec<Named<BaseGauge>>,
     /// Where depth and velocity are read.
     stations: Vec<StationGauge>,
-    /// Where speeds are read.
+    /// Where speeds are read that stand in the history.
     window: Option<WindowGauge>,
+    /// Where others are read.
+    pub windows: Vec<Named<WindowGauge>>,
     front: FrontGauge,
 }
 
@@ -152,13 +163,20 @@ impl Gauges {
     pub fn new(case: &Case, simulation: &Simulation) -> Self {
         let gauges = &case.gauges;
         let barriers: Vec<_> = gauges.barrier_names().filter_map(|name| Barrier::new(case, simulation, name)).collect();
+        let base = |name: &str| {
+            let gauge = BaseGauge::new(simulation.boundary_index(name)?);
+            Some(Named { name: name.into(), gauge })
+        };
         let window = gauges.window_x_m.zip(gauges.window_y_m);
+        let windows =
+            gauges.windows.iter().map(|w| Named { name: w.name.clone(), gauge: WindowGauge::new(w.x_m, w.y_m) });
         Self {
             structures: barriers.iter().filter_map(|b| b.structure.as_ref()).map(StructureGauge::body).collect(),
             barriers,
-            base: gauges.base.as_ref().and_then(|name| simulation.boundary_index(name)).map(BaseGauge::new),
+            bases: gauges.base_names().filter_map(base).collect(),
             stations: gauges.stations_m.iter().copied().map(StationGauge::new).collect(),
             window: window.map(|(x, y)| WindowGauge::new(x, y)),
+            windows: windows.collect(),
             front: FrontGauge::default(),
         }
     }
@@ -171,23 +189,32 @@ impl Gauges {
     /// Reads the last step.
     pub fn after_step(&mut self, simulation: &Simulation) {
         self.barriers.iter_mut().for_each(|b| b.after_step(simulation));
-        if let Some(base) = &mut self.base {
-            base.after_step(simulation);
-        }
+        self.bases.iter_mut().for_each(|b| b.gauge.after_step(simulation));
     }
 
-    /// Reads the gauges: means since the last call, and the state now. The row has what is not of single barriers, and what is of the
-    /// first; what has tables of its own goes to the recorder.
+    /// Reads the gauges: means since the last call, and the state now. The row has what is read of the flow, at the first barrier and at
+    /// the first base; what has tables of its own goes to the recorder.
     pub fn sample(&mut self, simulation: &Simulation, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
         let mut row = HistoryRow {
             time: simulation.time(),
             time_step: simulation.time_step().dt,
             front: self.front.sample(simulation, &self.structures),
-            base: self.base.as_mut().map(BaseGauge::sample).unwrap_or_default(),
             window: self.window.as_mut().map(|w| w.sample(simulation, &self.structures)).unwrap_or_default(),
             penetration: penetration::of_boundaries(simulation).0,
             ..HistoryRow::default()
         };
+        let own = HistoryRow { time: row.time, ..HistoryRow::default() };
+        for (k, base) in self.bases.iter_mut().enumerate() {
+            let base = base.gauge.sample();
+            match k.checked_sub(1) {
+                None => row.base = base,
+                Some(further) => recorder.further_base(further, &HistoryRow { base, ..own })?,
+            }
+        }
+        for (k, window) in self.windows.iter_mut().enumerate() {
+            let window = window.gauge.sample(simulation, &self.structures);
+            recorder.window(k, &HistoryRow { window, ..own })?;
+        }
         for (k, barrier) in self.barriers.iter_mut().enumerate() {
             let sample = barrier.sample(simulation);
             if let Some(s) = &sample.structure {
@@ -198,7 +225,7 @@ impl Gauges {
             }
             let Some(recorder) = of_barrier(recorder, k) else { continue };
             if k > 0 {
-                let mut own = HistoryRow { time: row.time, ..HistoryRow::default() };
+                let mut own = own;
                 sample.write(&mut own);
                 recorder.history(&own)?;
             }

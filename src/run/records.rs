@@ -119,6 +119,14 @@ pub trait Recorder {
     fn further(&mut self, _barrier: usize) -> Option<&mut dyn Recorder> {
         None
     }
+    /// A sample of a base that is not the first, by its number without that: its time and its forces, and nothing else.
+    fn further_base(&mut self, _base: usize, _row: &HistoryRow) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// A sample of a window with a name, by its number: its time and its speeds, and nothing else.
+    fn window(&mut self, _window: usize, _row: &HistoryRow) -> Result<(), OutputError> {
+        Ok(())
+    }
     /// Called after every step after release.
     fn step(&mut self, _simulation: &Simulation) -> Result<(), OutputError> {
         Ok(())
@@ -142,6 +150,10 @@ pub struct Records {
     pub structure: Vec<(f64, StructureSample)>,
     /// History and structure of the barriers but the first.
     pub further: Vec<Records>,
+    /// Samples of the bases but the first.
+    pub further_bases: Vec<Vec<HistoryRow>>,
+    /// Samples of the windows with names.
+    pub windows: Vec<Vec<HistoryRow>>,
 }
 
 impl Recorder for Records {
@@ -166,9 +178,25 @@ impl Recorder for Records {
     }
 
     fn further(&mut self, barrier: usize) -> Option<&mut dyn Recorder> {
-        if self.further.len() <= barrier {
-            self.further.resize_with(barrier + 1, Records::default);
-        }
-        Some(&mut self.further[barrier])
+        let records: &mut Records = of_number(&mut self.further, barrier);
+        Some(records)
     }
+
+    fn further_base(&mut self, base: usize, row: &HistoryRow) -> Result<(), OutputError> {
+        of_number(&mut self.further_bases, base).push(*row);
+        Ok(())
+    }
+
+    fn window(&mut self, window: usize, row: &HistoryRow) -> Result<(), OutputError> {
+        of_number(&mut self.windows, window).push(*row);
+        Ok(())
+    }
+}
+
+/// The one with this number; the list grows until it has it.
+fn of_number<T: Default>(list: &mut Vec<T>, number: usize) -> &mut T {
+    if list.len() <= number {
+        list.resize_with(number + 1, T::default);
+    }
+    &mut list[number]
 }
