@@ -45,7 +45,7 @@ impl CaseRun {
 
 /// Friction coefficient of the base of a case.
 pub fn base_friction(case: &Case) -> f64 {
-    let base = case.boundaries.iter().find(|b| Some(&b.name) == case.gauges.base.as_ref());
+    let base = case.boundaries.iter().find(|b| Some(b.name.as_str()) == case.gauges.base_names().next());
     match base.and_then(|b| b.contact_law()) {
         Some(Friction::Coulomb(friction)) => friction,
         _ => f64::NAN,

@@ -7,7 +7,7 @@ use crate::scene::{Brick, Material, THICKNESS, scene};
 use crate::{Fault, RungFailure};
 use checkdam::boundary::{Boundary, Friction, Opening};
 use checkdam::constitutive::{AnyLaw, Cone, DruckerPrager};
-use checkdam::gauge::flow::FRONT_SHARE;
+use checkdam::gauge::FRONT_SHARE;
 use checkdam::run::records::MomentumRow;
 use checkdam::simulation::{PicShare, Simulation};
 use checkdam::theory::elastic::confined_speed;

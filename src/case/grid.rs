@@ -1,4 +1,4 @@
-//! The `[grid]` table of a case file.
+//! The `[grid]` and `[domain]` tables of a case file.
 
 use serde::{Deserialize, Serialize};
 
@@ -27,4 +27,15 @@ pub struct Grid {
 
 fn default_particles_per_cell() -> u32 {
     4
+}
+
+/// The box that holds the simulation. Material that leaves it is removed, counted and reported.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Least and greatest x. Allowed: `[low, high]` with low < high. Example: `[-0.4, 1.8]`.
+    pub x_m: [f64; 2],
+    /// Least and greatest y. Allowed: `[low, high]` with low < high. Example: `[-0.1, 1.5]`.
+    pub y_m: [f64; 2],
 }

@@ -7,6 +7,7 @@
 
 mod boundary;
 mod contact;
+mod gauges;
 mod geometry;
 mod grid;
 mod material;
@@ -28,13 +29,14 @@ use thiserror::Error;
 
 pub use boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide, OpeningKind, Shape, Wall};
 pub use contact::{BodyContact, GapKind, NormalKind};
+pub use gauges::{Gauges, Window};
 pub use geometry::direction;
-pub use grid::Grid;
+pub use grid::{Domain, Grid};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
-    Body, Case, Domain, Gauges, Gravity, Integration, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output,
-    Run, Settle, SideWalls, Stages, Tilt,
+    Body, Case, Gravity, Integration, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run, Settle,
+    SideWalls, Stages, Tilt,
 };
 pub use validate::{Findings, Problem, validate};
 

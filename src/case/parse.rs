@@ -154,7 +154,7 @@ fn missing(path: &KeyPath, key: &str) -> (String, String, String) {
         (false, _) => format!("add {key} = ... below"),
     };
     let what = format!("{} is missing", path.key(key));
-    (what, "this key has no default; validation/flume/40deg.toml explains all keys".to_owned(), fix)
+    (what, "this key has no default; docs/reference/case.md explains all keys".to_owned(), fix)
 }
 
 /// What serde expected, in words, and what to do about it.

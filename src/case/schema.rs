@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::boundary::Boundary;
 use super::contact::BodyContact;
-use super::grid::Grid;
+use super::gauges::Gauges;
+use super::grid::{Domain, Grid};
 use super::material::Material;
 use crate::boundary::BoundaryContact;
 use crate::simulation::{PicShare, Scheme};
@@ -73,17 +74,6 @@ pub struct Gravity {
     /// The same angle while the material settles. Default: that of `inclination_deg`. Allowed: -90 to 90; another than
     /// `inclination_deg` only with `[stages.tilt]`. Example: `0`.
     pub settle_inclination_deg: Option<f64>,
-}
-
-/// The box that holds the simulation. Material that leaves it is removed, counted and reported.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Domain {
-    /// Least and greatest x. Allowed: `[low, high]` with low < high. Example: `[-0.4, 1.8]`.
-    pub x_m: [f64; 2],
-    /// Least and greatest y. Allowed: `[low, high]` with low < high. Example: `[-0.1, 1.5]`.
-    pub y_m: [f64; 2],
 }
 
 /// A rectangle filled with one material at the start.
@@ -216,59 +206,6 @@ pub struct Run {
     /// and the force on the barrier is steady. Default: `true`.
     #[serde(default = "yes")]
     pub stop_at_rest: bool,
-}
-
-/// What is measured during the run. Every field may be left out.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
-pub struct Gauges {
-    /// Name of the boundary, or of the body, whose force is measured. Default: none. Allowed: the name of one of
-    /// `[[boundaries]]`, or of a body in `[[contacts]]`, and not of both. Example: `"barrier"`.
-    pub barrier: Option<String>,
-    /// Names of several such boundaries and bodies, instead of `barrier`. The first is what is meant by the barrier; each of the
-    /// others has files and a table of results of its own. Default: none. Allowed: as `barrier`, each name once; not together
-    /// with `barrier`. Example: `["barrier", "second"]`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub barriers: Vec<String>,
-    /// Name of the boundary whose friction holds the deposit. Default: none. Allowed: the name of one of
-    /// `[[boundaries]]`. Example: `"base"`.
-    pub base: Option<String>,
-    /// Samples per second; a sample is the mean over its interval. Default: `1000.0`. Allowed: above 0; at most 1e8
-    /// samples in a run. Example: `500`.
-    pub sample_rate_hz: f64,
-    /// Flow depth and velocity are recorded at these x. Default: `[]`. Allowed: any number of x inside the domain.
-    /// Example: `[0.5, 0.7]`.
-    pub stations_m: Vec<f64>,
-    /// Least and greatest x of the velocity field. Default: none. Allowed: `[low, high]` with low < high, inside the
-    /// domain; together with `window_y_m` or not at all. Example: `[0.7, 1.2]`.
-    pub window_x_m: Option<[f64; 2]>,
-    /// Least and greatest y of the velocity field. Default: none. Allowed: as `window_x_m`. Example: `[0.0, 0.6]`.
-    pub window_y_m: Option<[f64; 2]>,
-    /// Times of the snapshots. Default: `[]`. Allowed: increasing, from 0 to `end_time_s`. Example: `[0.0, 0.5, 1.0]`.
-    pub field_times_s: Vec<f64>,
-}
-
-impl Default for Gauges {
-    fn default() -> Self {
-        Gauges {
-            barrier: None,
-            barriers: Vec::new(),
-            base: None,
-            sample_rate_hz: 1000.0,
-            stations_m: Vec::new(),
-            window_x_m: None,
-            window_y_m: None,
-            field_times_s: Vec::new(),
-        }
-    }
-}
-
-impl Gauges {
-    /// Names of all barriers, in order.
-    pub fn barrier_names(&self) -> impl Iterator<Item = &str> {
-        self.barrier.iter().chain(&self.barriers).map(String::as_str)
-    }
 }
 
 /// Files written besides the results.

@@ -10,6 +10,7 @@ const TABLES: [&str; 9] =
     ["gravity", "grid", "domain", "materials", "side_walls", "stages", "gauges", "output", "numerics"];
 const TABLES_OF_STAGES: [&str; 3] = ["settle", "tilt", "run"];
 const LISTS: [&str; 3] = ["bodies", "boundaries", "contacts"];
+const LISTS_OF_GAUGES: [&str; 1] = ["windows"];
 const PAIRS: [&str; 7] = ["x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "window_x_m", "window_y_m"];
 
 /// Tables, lists of tables and pairs of numbers that are something else.
@@ -45,6 +46,8 @@ fn tables(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
         let key = key.get_ref().as_ref();
         if is_materials || path.last_key() == "stages" && TABLES_OF_STAGES.contains(&key) {
             expect_table(&path.key(key), value.get_ref(), problems);
+        } else if path.last_key() == "gauges" && LISTS_OF_GAUGES.contains(&key) {
+            list(&path.key(key), value.get_ref(), problems);
         }
     }
     pairs(path, table, problems);

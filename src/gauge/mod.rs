@@ -6,21 +6,39 @@
 //! - [`BaseGauge`]: force of a boundary on what lies on it.
 //! - `layers`: the same force from the stress of the nearest material points.
 //! - [`ReactionGauge`]: force and moment on a clamp, or between bodies.
-//! - [`penetration`]: how deep material lies inside a structure.
-//! - [`flow`]: front, depth, velocity, run-up, overtopping.
+//! - [`penetration`]: how deep material lies inside a structure or a boundary.
+//! - [`FrontGauge`]: the front of the flow, its velocity and depth.
+//! - [`StationGauge`]: depth and velocity at a place.
+//! - [`WindowGauge`]: speed in a rectangle.
+//! - [`wall_state`]: run-up and overtopping.
+//! - [`velocity_field`]: velocity and stress, cell by cell.
+//! - [`flow`]: what of all this flows.
 //!
 //! Elsewhere: probes, sensors, load cells, history output, in-situ post-processing.
 
 mod barrier;
 mod base;
 mod beside;
+mod field;
 pub mod flow;
+mod front;
 pub(crate) mod layers;
 pub mod penetration;
 mod reaction;
+mod station;
 pub mod structure;
+#[cfg(test)]
+#[path = "two_bodies_tests.rs"]
+mod two_bodies;
+mod wall_state;
+mod window;
 
 pub use barrier::{BarrierGauge, ForceSample, Peak, contact_impulse};
 pub use base::{BaseGauge, BaseSample};
+pub use field::{FieldCell, velocity_field};
+pub use front::{FRONT_LENGTH, FRONT_SHARE, Front, FrontGauge};
 pub use reaction::{Reaction, ReactionGauge};
+pub use station::{StationGauge, StationSample};
 pub use structure::{StructureGauge, StructureSample};
+pub use wall_state::{WallState, wall_state};
+pub use window::{WindowGauge, WindowSample};

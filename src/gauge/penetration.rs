@@ -1,8 +1,10 @@
-//! How deep material lies inside a structure: the gauge that tells whether contact held.
+//! How deep material lies inside a structure or a boundary: the gauge that tells whether contact held.
 //!
-//! The structure's surface is followed through its outermost points, see [`Outline`]. A barrier whose contact works is entered
+//! A structure's surface is followed through its outermost points, see [`Outline`]. A barrier whose contact works is entered
 //! by less than a cell; a leaking one lets material through, and its force means nothing.
 
+use super::beside::beside;
+use crate::boundary::{Boundary, Friction};
 use crate::contact::outline::{Outline, penetration};
 use crate::simulation::Simulation;
 
@@ -56,10 +58,30 @@ pub fn measure(simulation: &Simulation, structure: usize, outline: &Outline, bey
     found
 }
 
+/// Deepest that any point lies inside any boundary that acts on it, m, and the boundary's index. Clamps hold what lies in them and
+/// do not count.
+pub fn of_boundaries(simulation: &Simulation) -> (f64, usize) {
+    let mut deepest = (0.0, 0);
+    let solid = |b: &Boundary| !b.is_gone() && b.friction != Friction::Bonded;
+    for (index, b) in simulation.boundaries().iter().enumerate().filter(|(_, b)| solid(b)) {
+        // What lies in front of its face is in no boundary.
+        beside(b, 0.0, simulation.blocks().filter(|(body, ..)| b.acts_on(&[*body]))).for_each(|near| {
+            let depth = b.depth(near.x());
+            if depth > deepest.0 {
+                deepest = (depth, index);
+            }
+        });
+    }
+    deepest
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::two_bodies::{point, simulation};
     use super::*;
+    use crate::boundary::Opening;
     use crate::scaffold::{Brick, elastic, scene};
+    use nalgebra::Vector2;
 
     #[test]
     fn a_brick_pushed_into_another() {
@@ -100,5 +122,26 @@ mod tests {
         }
         assert_eq!(measured([-0.2, 0.4]), Penetration::default());
         assert_eq!(measured([-0.095, -0.095]), Penetration::default(), "beside the corner and not inside");
+    }
+
+    #[test]
+    fn penetration_finds_the_deepest_point_and_skips_gates_that_are_gone() {
+        let plane = |y: f64| Boundary::plane("base", Vector2::new(0.0, y), Vector2::new(0.0, 1.0), Friction::Smooth);
+        let points = vec![point(0.0, -0.25, [0.0; 2], 1.0), point(0.0, 0.5, [0.0; 2], 1.0)];
+        let heavy = vec![point(0.0, -0.125, [0.0; 2], 1.0)];
+        let sim = simulation(0.1, [points.clone(), heavy.clone()], vec![plane(-1.0), plane(0.0), plane(-0.0625)]);
+        assert_eq!(of_boundaries(&sim), (0.25, 1));
+        for above in [-1.0, -0.25] {
+            // On the surface is not inside.
+            let sim = simulation(0.1, [points.clone(), heavy.clone()], vec![plane(-2.0), plane(above)]);
+            assert_eq!(of_boundaries(&sim), (0.0, 0));
+        }
+        let mut gate = plane(0.0).gate(Opening::Vanish);
+        gate.release();
+        let sim = simulation(0.1, [points.clone(), heavy.clone()], vec![gate, plane(-0.0625)]);
+        assert_eq!(of_boundaries(&sim), (0.1875, 1));
+        let clamp = Boundary { friction: Friction::Bonded, ..plane(0.0) };
+        let sim = simulation(0.1, [points, heavy], vec![clamp, plane(0.0).only_for(&[1])]);
+        assert_eq!(of_boundaries(&sim), (0.125, 1), "clamps hold what lies in them; others act on their bodies alone");
     }
 }

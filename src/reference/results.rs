@@ -16,7 +16,8 @@ The unit of a number is the end of its name; 1 stands for a share or a ratio, - 
 their names stand there once for each boundary. Those with `{surface}` stand there once for each boundary, and then for each contact
 of two bodies (`A_on_B`). Names are in lower case, with `_` for what is neither letter nor digit.
 
-Files of a barrier that is not the first end in its name: `pressure_profile_NAME.csv` has the columns of `pressure_profile.csv`.
+NAME stands for a name in the same letters. Files of a barrier that is not the first end in its name: `pressure_profile_NAME.csv` has
+the columns of `pressure_profile.csv`.
 
 This page is made from the table of columns, `src/run/columns.rs`; `cargo reference` writes it anew.
 ";

@@ -14,7 +14,7 @@ title = "everything"
 gravity = { inclination_deg = 20 }
 grid = { spacing_m = 0.05, thickness_m = 0.1 }
 domain = { x_m = [-0.5, 0.8], y_m = [-0.3, 0.7] }
-gauges = { barriers = ["fence", "The wall"], base = "floor", stations_m = [0.0, 0.05], window_x_m = [0.0, 0.1], window_y_m = [0, 0.3], field_times_s = [0, 0.1] }
+gauges = { barriers = ["fence", "The wall"], bases = ["floor", "The wall"], windows = [{ name = "Behind it", x_m = [0.3, 0.5], y_m = [0, 0.3] }], stations_m = [0.0, 0.05], window_x_m = [0.0, 0.1], window_y_m = [0, 0.3], field_times_s = [0, 0.1] }
 output = { vtk_interval_s = 0.1 }
 stages.run = { end_time_s = 0.3, stop_at_rest = false }
 materials.rubber = { law = "linear_elastic", density_kg_per_m3 = 1000, young_pa = 1e5, poisson = 0.2 }
@@ -64,9 +64,9 @@ fn every_column_is_on_the_page(folder: &Path) {
         if !name.ends_with(".csv") {
             continue;
         }
-        let further = name.strip_suffix("_the_wall.csv");
-        let file = further.map_or(name.clone(), |kind| match kind {
-            "history" => "history_NAME.csv".to_owned(),
+        let named = name.strip_suffix("_the_wall.csv").or_else(|| name.strip_suffix("_behind_it.csv"));
+        let file = named.map_or(name.clone(), |kind| match kind {
+            "history" | "base" | "window" => format!("{kind}_NAME.csv"),
             kind => format!("{kind}.csv"),
         });
         let section = page.split("\n## `").find(|s| s.starts_with(&format!("{file}`")));

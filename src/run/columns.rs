@@ -2,9 +2,8 @@
 
 use super::records::{EnergyRow, HistoryRow, MomentumRow};
 use super::table::{Column, Group, Per, TableKind, TableText};
-use crate::gauge::StructureSample;
-use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
+use crate::gauge::{FieldCell, StationSample, StructureSample};
 use crate::simulation::ContactPoint;
 
 /// All tables of a run with all their columns.
@@ -23,6 +22,8 @@ pub fn columns() -> Vec<TableText> {
         FIELD.describe(),
         GEOMETRY.describe(),
         FURTHER.describe(),
+        FURTHER_BASE.describe(),
+        WINDOW.describe(),
     ]
 }
 
@@ -47,9 +48,12 @@ const SAMPLE_FORCES: &[Column<HistoryRow>] = columns![HistoryRow;
     "force_layer3_n", "N", "the same from the nearest three layers", |r, _| r.layers[2];
 ];
 
-const SAMPLE_BASE_AND_FRONT: &[Column<HistoryRow>] = columns![HistoryRow;
-    "base_normal_n", "N", "force of the base on the material along its normal", |r, _| r.base_normal;
-    "base_friction_n", "N", "force of the base on the material along it, positive down the flume", |r, _| r.base_friction;
+const SAMPLE_BASE: &[Column<HistoryRow>] = columns![HistoryRow;
+    "base_normal_n", "N", "force of the base on the material along its normal", |r, _| r.base.normal;
+    "base_friction_n", "N", "force of the base on the material along it, positive down the flume", |r, _| r.base.friction;
+];
+
+const SAMPLE_FRONT: &[Column<HistoryRow>] = columns![HistoryRow;
     "front_x_m", "m", "position that 1 % of the flow's mass has passed", |r, _| r.front.x;
     "front_velocity_m_per_s", "m/s", "mean velocity along x of the mass within 0.05 m behind the front and of all ahead of it", |r, _| r.front.velocity;
     "front_depth_m", "m", "largest flow depth within 0.1 m behind the front", |r, _| r.front.depth;
@@ -60,9 +64,12 @@ const SAMPLE_CREST: &[Column<HistoryRow>] = columns![HistoryRow;
     "overtopped_kg", "kg", "mass behind the barrier's face, there or already out of the domain", |r, _| r.overtopped;
 ];
 
-const SAMPLE_FLOW: &[Column<HistoryRow>] = columns![HistoryRow;
-    "window_speed_mean_m_per_s", "m/s", "mean speed of the points in the window", |r, _| r.window_speed[0];
-    "window_speed_p95_m_per_s", "m/s", "their 95th percentile", |r, _| r.window_speed[1];
+const SAMPLE_WINDOW: &[Column<HistoryRow>] = columns![HistoryRow;
+    "window_speed_mean_m_per_s", "m/s", "mean speed of the points in the window", |r, _| r.window.mean;
+    "window_speed_p95_m_per_s", "m/s", "their 95th percentile", |r, _| r.window.p95;
+];
+
+const SAMPLE_STATE: &[Column<HistoryRow>] = columns![HistoryRow;
     "kinetic_j", "J", "kinetic energy of everything but barriers", |r, _| r.kinetic;
     "penetration_m", "m", "deepest that a point lies inside a boundary or a barrier", |r, _| r.penetration;
     "time_step_s", "s", "length of the last time step", |r, _| r.time_step;
@@ -75,9 +82,11 @@ pub(super) static HISTORY: TableKind<HistoryRow> = TableKind {
     groups: &[
         Group(Per::Table, SAMPLE_TIME),
         Group(Per::Table, SAMPLE_FORCES),
-        Group(Per::Table, SAMPLE_BASE_AND_FRONT),
+        Group(Per::Table, SAMPLE_BASE),
+        Group(Per::Table, SAMPLE_FRONT),
         Group(Per::Table, SAMPLE_CREST),
-        Group(Per::Table, SAMPLE_FLOW),
+        Group(Per::Table, SAMPLE_WINDOW),
+        Group(Per::Table, SAMPLE_STATE),
     ],
 };
 
@@ -86,6 +95,20 @@ pub(super) static FURTHER: TableKind<HistoryRow> = TableKind {
     file: "history_NAME.csv",
     row: "a sample of the barrier NAME, where it is not the first",
     groups: &[Group(Per::Table, SAMPLE_TIME), Group(Per::Table, SAMPLE_FORCES), Group(Per::Table, SAMPLE_CREST)],
+};
+
+/// Samples of a base that is not the first.
+pub(super) static FURTHER_BASE: TableKind<HistoryRow> = TableKind {
+    file: "base_NAME.csv",
+    row: "a sample of the base NAME, where it is not the first",
+    groups: &[Group(Per::Table, SAMPLE_TIME), Group(Per::Table, SAMPLE_BASE)],
+};
+
+/// Samples of a window that has a name.
+pub(super) static WINDOW: TableKind<HistoryRow> = TableKind {
+    file: "window_NAME.csv",
+    row: "a sample of the window NAME; speeds are those at the end of its interval",
+    groups: &[Group(Per::Table, SAMPLE_TIME), Group(Per::Table, SAMPLE_WINDOW)],
 };
 
 /// Energy by mechanism.
@@ -166,17 +189,17 @@ pub(super) static MOMENTUM: TableKind<MomentumRow> = TableKind {
     ],
 };
 
-/// Depth and velocity at the stations: time, x, depth, velocity.
-pub(super) static STATIONS: TableKind<[f64; 4]> = TableKind {
+/// Depth and velocity at the stations: time and sample.
+pub(super) static STATIONS: TableKind<(f64, StationSample)> = TableKind {
     file: "stations.csv",
     row: "a station at a moment, every tenth sample",
     groups: &[Group(
         Per::Table,
-        columns![[f64; 4];
-            "time_s", "s", "after release", |r, _| r[0];
-            "x_m", "m", "place of the station", |r, _| r[1];
-            "depth_m", "m", "flow depth in a strip two cells wide around it", |r, _| r[2];
-            "velocity_m_per_s", "m/s", "mean velocity along x in that strip", |r, _| r[3];
+        columns![(f64, StationSample);
+            "time_s", "s", "after release", |r, _| r.0;
+            "x_m", "m", "place of the station", |r, _| r.1.x;
+            "depth_m", "m", "flow depth in a strip two cells wide around it", |r, _| r.1.depth;
+            "velocity_m_per_s", "m/s", "mean velocity along x in that strip", |r, _| r.1.velocity;
         ],
     )],
 };

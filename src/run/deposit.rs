@@ -30,6 +30,29 @@ pub struct DepositResults {
     pub equilibrium_residual_n: f64,
 }
 
+/// A base that is not the first.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct FurtherBase {
+    /// Its name in the case.
+    pub name: String,
+    /// Mean normal force on the material over the last 0.3 s, N.
+    pub base_normal_n: f64,
+    /// Mean friction on the material over the last 0.3 s, N; negative: up the flume.
+    pub base_friction_n: f64,
+}
+
+/// Those after the first, of which there are samples.
+pub(super) fn further_bases(experiment: &Experiment, records: &Records) -> Vec<FurtherBase> {
+    let with_samples = experiment.bases().iter().skip(1).zip(&records.further_bases);
+    let results = with_samples.map(|(b, samples)| FurtherBase {
+        name: b.name.clone(),
+        base_normal_n: late_mean(samples, 0.0, 1.0, |r| r.base.normal),
+        base_friction_n: late_mean(samples, 0.0, 1.0, |r| r.base.friction),
+    });
+    results.collect()
+}
+
 /// `None` without a base that has friction, or without a sample.
 pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<DepositResults> {
     let sim = experiment.simulation();
@@ -44,8 +67,8 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Depo
     let barrier = experiment.barrier()?.boundary();
     let departed = barrier.map_or(sim.ledger().departed_mass, |b| sim.ledger().departed_behind[b]);
     let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - (last.overtopped - departed);
-    let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base_normal);
-    let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base_friction);
+    let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base.normal);
+    let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base.friction);
     let weight = mass * along;
     let limit = mu * base_normal;
     // What the other boundaries and bodies take, from the ledger: the barrier, and whatever else the deposit leans on. What clamps

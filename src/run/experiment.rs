@@ -3,13 +3,13 @@
 //! Elsewhere: the driver; stages are load steps.
 
 use super::ProgressFn;
-use super::gauges::{Barrier, Gauges};
+use super::gauges::{Barrier, Gauges, Named, of_barrier};
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
 use super::rest::RestWatch;
 use super::scene;
 use super::stage::{End, Progress, RunError, Stage, StageFacts};
 use crate::case::Case;
-use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, flow};
+use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, WindowGauge, flow, velocity_field};
 use crate::output::OutputError;
 use crate::simulation::Simulation;
 
@@ -63,7 +63,17 @@ impl Experiment {
 
     /// Index of the base.
     pub fn base(&self) -> Option<usize> {
-        self.gauges.base.as_ref().map(BaseGauge::boundary)
+        self.bases().first().map(|b| b.gauge.boundary())
+    }
+
+    /// The bases, in the order of the case. The first is what is meant by the base.
+    pub(super) fn bases(&self) -> &[Named<BaseGauge>] {
+        &self.gauges.bases
+    }
+
+    /// The windows with names, in the order of the case.
+    pub(super) fn windows(&self) -> &[Named<WindowGauge>] {
+        &self.gauges.windows
     }
 
     /// Gauges of the case.
@@ -206,7 +216,8 @@ impl Experiment {
             if self.simulation.time() >= (samples + 1) as f64 * interval {
                 samples = (self.simulation.time() / interval) as u64;
                 let motion = flow::motion(&self.simulation, |b| !self.structures().contains(&b));
-                let row = self.sample(&motion, recorder)?;
+                let row = self.gauges.sample(&self.simulation, recorder)?;
+                let row = HistoryRow { kinetic: motion.kinetic, ..row };
                 recorder.history(&row)?;
                 let weight = motion.mass * self.case.gravity.magnitude_m_per_s2;
                 rest.watch(&row, motion.momentum, interval, released, weight);
@@ -231,48 +242,17 @@ impl Experiment {
         self.gauges.after_step(sim);
     }
 
-    /// Reads the gauges; what is read at barriers but the first goes to recorders of their own.
-    fn sample(&mut self, motion: &flow::Motion, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
-        let sim = &self.simulation;
-        let mut row = self.gauges.sample(sim, motion);
-        for (k, barrier) in self.gauges.barriers.iter_mut().enumerate() {
-            let sample = barrier.sample(sim);
-            if let Some(s) = &sample.structure {
-                row.penetration = row.penetration.max(s.survey.penetration);
-            }
-            if k == 0 {
-                sample.write(&mut row);
-            }
-            let Some(recorder) = of_barrier(recorder, k) else { continue };
-            if k > 0 {
-                let mut own = HistoryRow { time: row.time, ..HistoryRow::default() };
-                sample.write(&mut own);
-                recorder.history(&own)?;
-            }
-            if let Some(s) = &sample.structure {
-                recorder.structure(row.time, s)?;
-            }
-        }
-        Ok(row)
-    }
-
     fn record_ledgers(&mut self, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
         let sim = &self.simulation;
         let now = sim.stock();
         let balance = sim.energy_balance(&now, self.datum());
         recorder.energy(&EnergyRow { time: sim.time(), balance })?;
         recorder.momentum(&MomentumRow::new(sim.time(), sim.ledger(), sim.opening(), &now))?;
-        let at = &self.gauges.stations;
-        if !at.is_empty() {
-            let rows = flow::stations(sim, self.structures(), at);
-            let rows: Vec<_> = at.iter().zip(rows).map(|(&x, (depth, velocity))| (x, depth, velocity)).collect();
-            recorder.stations(sim.time(), &rows)?;
-        }
-        Ok(())
+        self.gauges.sample_stations(sim, recorder)
     }
 
     fn record_field(&self, time: f64, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
-        recorder.field(time, &flow::velocity_field(&self.simulation, self.structures()))?;
+        recorder.field(time, &velocity_field(&self.simulation, self.structures()))?;
         for (k, barrier) in self.barriers().iter().enumerate() {
             if let (Some(structure), Some(recorder)) = (barrier.structure(), of_barrier(recorder, k)) {
                 recorder.outline(time, &structure.outline())?;
@@ -294,13 +274,5 @@ impl Experiment {
             recorder.profile(time, &barrier.pressure(&self.simulation))?;
         }
         Ok(())
-    }
-}
-
-/// Who records what is read at a barrier, by its number.
-fn of_barrier(recorder: &mut dyn Recorder, barrier: usize) -> Option<&mut dyn Recorder> {
-    match barrier.checked_sub(1) {
-        None => Some(recorder),
-        Some(further) => recorder.further(further),
     }
 }

@@ -5,20 +5,20 @@
 //! on the wall clock, the number of threads or the place of the folder: the same case gives the same bytes.
 
 use super::ProgressFn;
+use super::barrier_tables::BarrierTables;
 use super::columns;
 use super::experiment::Experiment;
 use super::figures::draw_figures;
-use super::gauges::{Barrier, PeakProfile, suffix};
+use super::gauges::{PeakProfile, suffix};
 pub use super::outlines::outlines;
 use super::outlines::{write_geometry_table, write_geometry_vtk};
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
 use super::stage::RunError;
 use super::summary::Summary;
-use super::table::{Names, OpenTable, TableKind};
+use super::table::{Names, OpenTable, flush, optional};
 use crate::case::{Case, file_name};
-use crate::gauge::StructureSample;
-use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
+use crate::gauge::{FieldCell, StationSample, StructureSample};
 use crate::output::{self, Field, OutputError, PvdWriter, Values};
 use crate::simulation::{ContactPoint, Simulation};
 use std::fs;
@@ -106,90 +106,15 @@ struct Folder {
     further: Vec<BarrierTables>,
     energy: OpenTable<EnergyRow>,
     momentum: OpenTable<MomentumRow>,
-    stations: Option<OpenTable<[f64; 4]>>,
+    /// What is read at the bases but the first.
+    bases: Vec<OpenTable<HistoryRow>>,
+    /// What is read in the windows with names.
+    windows: Vec<OpenTable<HistoryRow>>,
+    stations: Option<OpenTable<(f64, StationSample)>>,
     field: Option<OpenTable<(f64, FieldCell)>>,
     contact: Option<OpenTable<columns::Touching>>,
     frames: Option<PvdWriter>,
     frame_count: usize,
-}
-
-/// The open tables of a barrier, and what was written into them.
-struct BarrierTables {
-    history: OpenTable<HistoryRow>,
-    pressure: Option<OpenTable<[f64; 3]>>,
-    structure: Option<OpenTable<(f64, StructureSample)>>,
-    bending: Option<OpenTable<(f64, ProfilePoint)>>,
-    outline: Option<OpenTable<[f64; 3]>>,
-    records: Records,
-}
-
-impl BarrierTables {
-    /// Those of a barrier with this number; without one there is a history all the same.
-    fn create(directory: &Path, number: usize, barrier: Option<&Barrier>, fields: bool) -> Result<Self, OutputError> {
-        let suffix = barrier.map_or_else(String::new, |b| suffix(b, number));
-        let at = |name: &str| directory.join(format!("{name}{suffix}.csv"));
-        let kind = if number == 0 { &columns::HISTORY } else { &columns::FURTHER };
-        let (any, bends) = (barrier.is_some(), barrier.is_some_and(|b| b.structure().is_some()));
-        Ok(Self {
-            history: OpenTable::create(kind, &at("history"), Names::default())?,
-            pressure: optional(any, &columns::PRESSURE, &at("pressure_profile"))?,
-            structure: optional(bends, &columns::STRUCTURE, &at("barrier"))?,
-            bending: optional(bends, &columns::BENDING, &at("barrier_profile"))?,
-            outline: optional(bends && fields, &columns::OUTLINE, &at("barrier_outline"))?,
-            records: Records::default(),
-        })
-    }
-
-    /// Hands all rows to the files; all of them, also when one fails.
-    fn flush(&mut self) -> Result<(), OutputError> {
-        let results = [self.history.flush(), flush(&mut self.pressure), flush(&mut self.structure)];
-        let results = results.into_iter().chain([flush(&mut self.bending), flush(&mut self.outline)]);
-        results.collect::<Vec<_>>().into_iter().collect()
-    }
-}
-
-/// A table that is there if it is wanted.
-fn optional<R>(wanted: bool, kind: &'static TableKind<R>, path: &Path) -> Result<Option<OpenTable<R>>, OutputError> {
-    wanted.then(|| OpenTable::create(kind, path, Names::default())).transpose()
-}
-
-fn flush<R>(table: &mut Option<OpenTable<R>>) -> Result<(), OutputError> {
-    table.as_mut().map_or(Ok(()), OpenTable::flush)
-}
-
-impl Recorder for BarrierTables {
-    fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError> {
-        self.records.history(row)?;
-        self.history.row(row)
-    }
-
-    fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError> {
-        self.records.energy(row)
-    }
-
-    fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError> {
-        self.records.momentum(row)
-    }
-
-    fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.pressure else { return Ok(()) };
-        rows.iter().try_for_each(|&(height, pressure)| table.row(&[time, height, pressure]))
-    }
-
-    fn structure(&mut self, time: f64, sample: &StructureSample) -> Result<(), OutputError> {
-        self.records.structure(time, sample)?;
-        self.structure.as_mut().map_or(Ok(()), |table| table.row(&(time, *sample)))
-    }
-
-    fn bending(&mut self, time: f64, rows: &[ProfilePoint]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.bending else { return Ok(()) };
-        rows.iter().try_for_each(|p| table.row(&(time, *p)))
-    }
-
-    fn outline(&mut self, time: f64, points: &[[f64; 2]]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.outline else { return Ok(()) };
-        points.iter().try_for_each(|x| table.row(&[time, x[0], x[1]]))
-    }
 }
 
 impl Folder {
@@ -214,6 +139,11 @@ impl Folder {
         let fields = !gauges.field_times_s.is_empty();
         let barriers = experiment.barriers();
         let further = barriers.iter().enumerate().skip(1);
+        let named = |kind, what: &str, name: &str| {
+            OpenTable::create(kind, &at(&format!("{what}_{}.csv", file_name(name))), Names::default())
+        };
+        let bases = experiment.bases().iter().skip(1).map(|b| named(&columns::FURTHER_BASE, "base", &b.name));
+        let windows = experiment.windows().iter().map(|w| named(&columns::WINDOW, "window", &w.name));
         Ok(Self {
             directory: directory.to_path_buf(),
             first: BarrierTables::create(directory, 0, barriers.first(), fields)?,
@@ -222,6 +152,8 @@ impl Folder {
                 .collect::<Result<_, _>>()?,
             energy: OpenTable::create(&columns::ENERGY, &at("energy.csv"), names.clone())?,
             momentum: OpenTable::create(&columns::MOMENTUM, &at("momentum.csv"), names)?,
+            bases: bases.collect::<Result<_, _>>()?,
+            windows: windows.collect::<Result<_, _>>()?,
             stations: optional(!gauges.stations_m.is_empty(), &columns::STATIONS, &at("stations.csv"))?,
             field: optional(fields, &columns::FIELD, &at("field.csv"))?,
             contact: optional(fields && sim.contacts().next().is_some(), &columns::CONTACT, &at("contact.csv"))?,
@@ -235,6 +167,7 @@ impl Folder {
         let mut results = vec![self.first.flush(), self.energy.flush(), self.momentum.flush()];
         results.extend([flush(&mut self.stations), flush(&mut self.field), flush(&mut self.contact)]);
         results.extend(self.further.iter_mut().map(BarrierTables::flush));
+        results.extend(self.bases.iter_mut().chain(&mut self.windows).map(OpenTable::flush));
         results.into_iter().collect()
     }
 
@@ -261,9 +194,8 @@ impl Recorder for Folder {
         self.close()
     }
 
-    fn stations(&mut self, time: f64, rows: &[(f64, f64, f64)]) -> Result<(), OutputError> {
-        let Some(table) = &mut self.stations else { return Ok(()) };
-        rows.iter().try_for_each(|&(x, depth, velocity)| table.row(&[time, x, depth, velocity]))
+    fn station(&mut self, time: f64, sample: &StationSample) -> Result<(), OutputError> {
+        self.stations.as_mut().map_or(Ok(()), |table| table.row(&(time, *sample)))
     }
 
     fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {
@@ -294,6 +226,16 @@ impl Recorder for Folder {
 
     fn further(&mut self, barrier: usize) -> Option<&mut dyn Recorder> {
         self.further.get_mut(barrier).map(|b| b as &mut dyn Recorder)
+    }
+
+    fn further_base(&mut self, base: usize, row: &HistoryRow) -> Result<(), OutputError> {
+        self.first.records.further_base(base, row)?;
+        self.bases.get_mut(base).map_or(Ok(()), |table| table.row(row))
+    }
+
+    fn window(&mut self, window: usize, row: &HistoryRow) -> Result<(), OutputError> {
+        self.first.records.window(window, row)?;
+        self.windows.get_mut(window).map_or(Ok(()), |table| table.row(row))
     }
 
     fn frame(&mut self, simulation: &Simulation) -> Result<(), OutputError> {

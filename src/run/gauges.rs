@@ -1,10 +1,14 @@
-//! The gauges of a case, as a list: barriers, base, stations, window.
+//! The gauges of a case, as lists: barriers, bases, stations, windows.
 
-use super::records::HistoryRow;
+use super::records::{HistoryRow, Recorder};
 use super::scene;
 use crate::case::{Case, file_name};
 use crate::gauge::structure::ProfilePoint;
-use crate::gauge::{BarrierGauge, BaseGauge, ForceSample, StructureGauge, StructureSample, flow, layers};
+use crate::gauge::{
+    BarrierGauge, BaseGauge, ForceSample, FrontGauge, StationGauge, StructureGauge, StructureSample, WindowGauge,
+    layers, penetration, wall_state,
+};
+use crate::output::OutputError;
 use crate::simulation::Simulation;
 
 /// A barrier: the force on it, and, if it is a body, how it takes that.
@@ -94,7 +98,7 @@ impl Barrier {
         let mut sample = BarrierSample { force, ..BarrierSample::default() };
         if let Some(boundary) = self.force.boundary() {
             sample.layers = layers::normal_force(simulation, boundary);
-            let wall = flow::wall_state(simulation, boundary);
+            let wall = wall_state(simulation, boundary);
             (sample.run_up, sample.overtopped) = (wall.run_up, wall.overtopped);
         }
         if let Some(structure) = &mut self.structure {
@@ -127,6 +131,15 @@ impl BarrierSample {
     }
 }
 
+/// A gauge with its name in the case.
+#[derive(Debug)]
+pub(super) struct Named<G> {
+    /// The name.
+    pub name: String,
+    /// The gauge.
+    pub gauge: G,
+}
+
 /// The gauges of a case.
 #[derive(Debug)]
 pub(super) struct Gauges {
@@ -134,13 +147,15 @@ pub(super) struct Gauges {
     pub barriers: Vec<Barrier>,
     /// Indices of those that are bodies: what is said of the flow leaves them out.
     pub structures: Vec<usize>,
-    /// The base.
-    pub base: Option<BaseGauge>,
-    /// Where depth and velocity are read, m.
-    pub stations: Vec<f64>,
-    window: Option<flow::Window>,
-    front: flow::FrontScratch,
-    speeds: Vec<f64>,
+    /// Bases, the first of which is what is meant by the base.
+    pub bases: Vec<Named<BaseGauge>>,
+    /// Where depth and velocity are read.
+    stations: Vec<StationGauge>,
+    /// Where speeds are read that stand in the history.
+    window: Option<WindowGauge>,
+    /// Where others are read.
+    pub windows: Vec<Named<WindowGauge>>,
+    front: FrontGauge,
 }
 
 impl Gauges {
@@ -148,15 +163,21 @@ impl Gauges {
     pub fn new(case: &Case, simulation: &Simulation) -> Self {
         let gauges = &case.gauges;
         let barriers: Vec<_> = gauges.barrier_names().filter_map(|name| Barrier::new(case, simulation, name)).collect();
+        let base = |name: &str| {
+            let gauge = BaseGauge::new(simulation.boundary_index(name)?);
+            Some(Named { name: name.into(), gauge })
+        };
         let window = gauges.window_x_m.zip(gauges.window_y_m);
+        let windows =
+            gauges.windows.iter().map(|w| Named { name: w.name.clone(), gauge: WindowGauge::new(w.x_m, w.y_m) });
         Self {
             structures: barriers.iter().filter_map(|b| b.structure.as_ref()).map(StructureGauge::body).collect(),
             barriers,
-            base: gauges.base.as_ref().and_then(|name| simulation.boundary_index(name)).map(BaseGauge::new),
-            stations: gauges.stations_m.clone(),
-            window: window.map(|(x, y)| flow::Window { x, y }),
-            front: flow::FrontScratch::default(),
-            speeds: Vec::new(),
+            bases: gauges.base_names().filter_map(base).collect(),
+            stations: gauges.stations_m.iter().copied().map(StationGauge::new).collect(),
+            window: window.map(|(x, y)| WindowGauge::new(x, y)),
+            windows: windows.collect(),
+            front: FrontGauge::default(),
         }
     }
 
@@ -168,29 +189,65 @@ impl Gauges {
     /// Reads the last step.
     pub fn after_step(&mut self, simulation: &Simulation) {
         self.barriers.iter_mut().for_each(|b| b.after_step(simulation));
-        if let Some(base) = &mut self.base {
-            base.after_step(simulation);
-        }
+        self.bases.iter_mut().for_each(|b| b.gauge.after_step(simulation));
     }
 
-    /// Means since the last call, and the state now, of everything but the barriers.
-    pub fn sample(&mut self, simulation: &Simulation, motion: &flow::Motion) -> HistoryRow {
+    /// Reads the gauges: means since the last call, and the state now. The row has what is read of the flow, at the first barrier and at
+    /// the first base; what has tables of its own goes to the recorder.
+    pub fn sample(&mut self, simulation: &Simulation, recorder: &mut dyn Recorder) -> Result<HistoryRow, OutputError> {
         let mut row = HistoryRow {
             time: simulation.time(),
-            kinetic: motion.kinetic,
             time_step: simulation.time_step().dt,
-            front: flow::front(simulation, &self.structures, &mut self.front),
-            penetration: flow::penetration(simulation).0,
+            front: self.front.sample(simulation, &self.structures),
+            window: self.window.as_mut().map(|w| w.sample(simulation, &self.structures)).unwrap_or_default(),
+            penetration: penetration::of_boundaries(simulation).0,
             ..HistoryRow::default()
         };
-        if let Some(base) = &mut self.base {
-            let force = base.sample();
-            (row.base_normal, row.base_friction) = (force.normal, force.friction);
+        let own = HistoryRow { time: row.time, ..HistoryRow::default() };
+        for (k, base) in self.bases.iter_mut().enumerate() {
+            let base = base.gauge.sample();
+            match k.checked_sub(1) {
+                None => row.base = base,
+                Some(further) => recorder.further_base(further, &HistoryRow { base, ..own })?,
+            }
         }
-        if let Some(window) = &self.window {
-            row.window_speed = flow::window_speed(simulation, &self.structures, window, &mut self.speeds).into();
+        for (k, window) in self.windows.iter_mut().enumerate() {
+            let window = window.gauge.sample(simulation, &self.structures);
+            recorder.window(k, &HistoryRow { window, ..own })?;
         }
-        row
+        for (k, barrier) in self.barriers.iter_mut().enumerate() {
+            let sample = barrier.sample(simulation);
+            if let Some(s) = &sample.structure {
+                row.penetration = row.penetration.max(s.survey.penetration);
+            }
+            if k == 0 {
+                sample.write(&mut row);
+            }
+            let Some(recorder) = of_barrier(recorder, k) else { continue };
+            if k > 0 {
+                let mut own = own;
+                sample.write(&mut own);
+                recorder.history(&own)?;
+            }
+            if let Some(s) = &sample.structure {
+                recorder.structure(row.time, s)?;
+            }
+        }
+        Ok(row)
+    }
+
+    /// Reads the stations.
+    pub fn sample_stations(&self, simulation: &Simulation, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
+        let samples = self.stations.iter().map(|s| s.sample(simulation, &self.structures));
+        samples.into_iter().try_for_each(|s| recorder.station(simulation.time(), &s))
+    }
+}
+
+/// Who records what is read at a barrier, by its number.
+pub(super) fn of_barrier(recorder: &mut dyn Recorder, barrier: usize) -> Option<&mut dyn Recorder> {
+    match barrier.checked_sub(1) {
+        None => Some(recorder),
+        Some(further) => recorder.further(further),
     }
 }
 

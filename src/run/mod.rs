@@ -6,6 +6,7 @@
 
 mod balances;
 mod barrier;
+mod barrier_tables;
 mod columns;
 mod deposit;
 mod experiment;

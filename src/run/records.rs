@@ -2,9 +2,8 @@
 //!
 //! Elsewhere: history output, an observer.
 
-use crate::gauge::StructureSample;
-use crate::gauge::flow::FieldCell;
 use crate::gauge::structure::ProfilePoint;
+use crate::gauge::{BaseSample, FieldCell, Front, StationSample, StructureSample, WindowSample};
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::output::OutputError;
 use crate::simulation::{ContactPoint, Simulation};
@@ -24,18 +23,16 @@ pub struct HistoryRow {
     pub normal_max: f64,
     /// Normal force from the stress of the nearest 1, 2, 3 layers of material points, N.
     pub layers: [f64; 3],
-    /// Force of the base on the material, normal and along it (positive down the flume), N.
-    pub base_normal: f64,
-    /// See `base_normal`.
-    pub base_friction: f64,
-    /// Front, m, m/s, m.
-    pub front: crate::gauge::flow::Front,
+    /// Force of the base on the material.
+    pub base: BaseSample,
+    /// The front.
+    pub front: Front,
     /// Highest material at the barrier, m above its foot.
     pub run_up: f64,
     /// Mass behind the barrier's face, kg.
     pub overtopped: f64,
-    /// Mean and 95th percentile of the speed in the window, m/s.
-    pub window_speed: [f64; 2],
+    /// Speeds in the window.
+    pub window: WindowSample,
     /// Kinetic energy, J.
     pub kinetic: f64,
     /// Deepest point inside a boundary, m.
@@ -89,8 +86,8 @@ pub trait Recorder {
     fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError>;
     /// The momentum ledger.
     fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError>;
-    /// Depth and velocity at the stations: (x, depth, velocity).
-    fn stations(&mut self, _time: f64, _rows: &[(f64, f64, f64)]) -> Result<(), OutputError> {
+    /// Depth and velocity at a station.
+    fn station(&mut self, _time: f64, _sample: &StationSample) -> Result<(), OutputError> {
         Ok(())
     }
     /// Mean pressure on the barrier since the last call: (height, pressure).
@@ -122,6 +119,14 @@ pub trait Recorder {
     fn further(&mut self, _barrier: usize) -> Option<&mut dyn Recorder> {
         None
     }
+    /// A sample of a base that is not the first, by its number without that: its time and its forces, and nothing else.
+    fn further_base(&mut self, _base: usize, _row: &HistoryRow) -> Result<(), OutputError> {
+        Ok(())
+    }
+    /// A sample of a window with a name, by its number: its time and its speeds, and nothing else.
+    fn window(&mut self, _window: usize, _row: &HistoryRow) -> Result<(), OutputError> {
+        Ok(())
+    }
     /// Called after every step after release.
     fn step(&mut self, _simulation: &Simulation) -> Result<(), OutputError> {
         Ok(())
@@ -145,6 +150,10 @@ pub struct Records {
     pub structure: Vec<(f64, StructureSample)>,
     /// History and structure of the barriers but the first.
     pub further: Vec<Records>,
+    /// Samples of the bases but the first.
+    pub further_bases: Vec<Vec<HistoryRow>>,
+    /// Samples of the windows with names.
+    pub windows: Vec<Vec<HistoryRow>>,
 }
 
 impl Recorder for Records {
@@ -169,9 +178,25 @@ impl Recorder for Records {
     }
 
     fn further(&mut self, barrier: usize) -> Option<&mut dyn Recorder> {
-        if self.further.len() <= barrier {
-            self.further.resize_with(barrier + 1, Records::default);
-        }
-        Some(&mut self.further[barrier])
+        let records: &mut Records = of_number(&mut self.further, barrier);
+        Some(records)
     }
+
+    fn further_base(&mut self, base: usize, row: &HistoryRow) -> Result<(), OutputError> {
+        of_number(&mut self.further_bases, base).push(*row);
+        Ok(())
+    }
+
+    fn window(&mut self, window: usize, row: &HistoryRow) -> Result<(), OutputError> {
+        of_number(&mut self.windows, window).push(*row);
+        Ok(())
+    }
+}
+
+/// The one with this number; the list grows until it has it.
+fn of_number<T: Default>(list: &mut Vec<T>, number: usize) -> &mut T {
+    if list.len() <= number {
+        list.resize_with(number + 1, T::default);
+    }
+    &mut list[number]
 }

@@ -2,7 +2,7 @@
 
 pub use super::balances::{EnergyResults, MomentumResults};
 pub use super::barrier::BarrierResults;
-pub use super::deposit::DepositResults;
+pub use super::deposit::{DepositResults, FurtherBase};
 use super::experiment::Experiment;
 use super::means::arrival;
 use super::records::{HistoryRow, Records};
@@ -36,6 +36,9 @@ pub struct Summary {
     /// Equilibrium of the deposit at the end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deposit: Option<DepositResults>,
+    /// The bases after the first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub further_bases: Vec<FurtherBase>,
     /// Energy at the end.
     pub energy: EnergyResults,
     /// Momentum at the end.
@@ -137,6 +140,7 @@ impl Summary {
             structure: experiment.barriers().first().and_then(|b| structure::results(b, records, &records.energy)),
             further_barriers: further_barriers(experiment, records),
             deposit: deposit::results(experiment, records),
+            further_bases: deposit::further_bases(experiment, records),
             energy: balances::energy(records),
             momentum: balances::momentum(records),
             front: passages(case, records),

@@ -123,6 +123,20 @@ impl<R> OpenTable<R> {
     }
 }
 
+/// A table that is there if it is wanted.
+pub(super) fn optional<R>(
+    wanted: bool,
+    kind: &'static TableKind<R>,
+    path: &Path,
+) -> Result<Option<OpenTable<R>>, OutputError> {
+    wanted.then(|| OpenTable::create(kind, path, Names::default())).transpose()
+}
+
+/// Hands all rows of a table to its file, if it is there.
+pub(super) fn flush<R>(table: &mut Option<OpenTable<R>>) -> Result<(), OutputError> {
+    table.as_mut().map_or(Ok(()), OpenTable::flush)
+}
+
 impl<R> std::fmt::Debug for TableKind<R> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.file)
@@ -132,7 +146,8 @@ impl<R> std::fmt::Debug for TableKind<R> {
 /// What a table of a run holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableText {
-    /// Name of the file. Of a barrier that is not the first its name follows: `history_NAME.csv`.
+    /// Name of the file. NAME stands for that of a barrier or a base that is not the first, or of a window. Of such a barrier it follows
+    /// in the names of its other files, too.
     pub file: &'static str,
     /// What a row is.
     pub row: &'static str,

@@ -163,11 +163,16 @@ fn shown(value: &Value) -> String {
     }
 }
 
+/// A number, whether it is written as 0.5 or as 1.
+fn number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
+}
+
 /// The change that makes a replicate; none for the design point itself.
 fn repetition(study: &Study, replicate: usize, case: &Table) -> Change {
     let mut change = Change::default();
     let Some(r) = study.replicates.as_ref().filter(|_| replicate > 0) else { return change };
-    let spacing = case.get("grid").and_then(|g| g.get("spacing_m")).and_then(Value::as_float);
+    let spacing = case.get("grid").and_then(|g| g.get("spacing_m")).and_then(number);
     if let Some(h) = spacing.filter(|_| r.grid_offset_cells > 0.0) {
         let moved = |d| Value::Float(h * r.grid_offset_cells * (2.0 * halton(replicate - 1, d) - 1.0));
         change.set.insert("grid.origin_m".into(), Value::Array(vec![moved(0), moved(1)]));

@@ -123,6 +123,25 @@ fn replicates_move_grid_and_particles() {
 }
 
 #[test]
+fn replicates_move_a_grid_whose_spacing_is_a_whole_number() {
+    let study = "title = \"large\"\ncases = [\"drop.toml\"]\n[replicates]\ncount = 1\ngrid_offset_cells = 0.5\n";
+    let study = Study::parse(study, "study.toml").expect("a study");
+    let origins = ["1", "1.0"].map(|spacing| {
+        let large = [
+            ("spacing_m = 0.05", format!("spacing_m = {spacing}")),
+            ("[-0.5, 0.5]", "[-10, 10]".into()),
+            ("[-0.2, 0.6]", "[-4, 12]".into()),
+            ("[-0.1, 0.1]", "[-2, 2]".into()),
+            ("[0.0, 0.2]", "[0, 4]".into()),
+        ];
+        let case = large.iter().fold(CASE.to_string(), |text, (from, to)| text.replacen(from, to, 1));
+        let runs = plan(&study, "study.toml", &|_| Ok(case.clone())).unwrap_or_else(|e| panic!("{e}"));
+        runs[1].case.grid.origin_m
+    });
+    assert!((origins[0][1] + 0.5 / 3.0).abs() < 1e-12 && origins[0] == origins[1], "{origins:?}");
+}
+
+#[test]
 fn a_sample_fills_its_ranges() {
     let text = r#"
 title = "sample"

@@ -124,7 +124,7 @@ fn recorded(number: &Number, run: &PlannedRun) -> Result<(), Wrong> {
         {
             unset(&format!("station at x = {x} m"), format!("add {x} to gauges.stations_m in the case file"))
         }
-        ("pressure_profile" | "barrier" | "barrier_profile", _) if gauges.barrier.is_none() => {
+        ("pressure_profile" | "barrier" | "barrier_profile", _) if gauges.barrier_names().next().is_none() => {
             unset(&format!("table `{table}`"), "name the barrier in gauges.barrier of the case file".into())
         }
         ("field", _) if gauges.field_times_s.is_empty() => {

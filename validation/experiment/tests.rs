@@ -28,10 +28,14 @@ const DEPTH: &str =
     "drop,height,0.2,m,theory,0.004,\"the case, file\",as it is drawn,H,stations.depth_m,last where x_m = 0";
 
 fn experiment(study: &str, table: &str) -> Result<Experiment, ExperimentError> {
+    experiment_of(CASE, study, table)
+}
+
+fn experiment_of(case: &str, study: &str, table: &str) -> Result<Experiment, ExperimentError> {
     Experiment::parse("block", "folder", &|file| match file {
         "study.toml" => Ok(study.into()),
         "published.csv" => Ok(table.into()),
-        "drop.toml" => Ok(CASE.into()),
+        "drop.toml" => Ok(case.into()),
         other => Err(io::Error::other(format!("no {other}"))),
     })
 }
@@ -69,6 +73,17 @@ fn a_mistake_in_the_table_is_named_with_its_line_and_what_to_do() {
     assert!(told.contains("line 1: there is no column `quantity`"), "{told}");
     let told = refused(STUDY, &format!("{HEADER}\n{}\n", DEPTH.replace("stations.depth_m,last where x_m = 0", ",")));
     assert!(told.contains("nothing in it has a counterpart"), "{told}");
+}
+
+#[test]
+fn what_is_read_at_a_barrier_needs_one_by_itself_or_in_a_list() {
+    let table = with("stations.depth_m,last where x_m = 0", "pressure_profile.pressure_pa,largest");
+    let gauges = |text: &str| CASE.replacen("barrier = \"floor\"", text, 1);
+    for named in ["barrier = \"floor\"", "barriers = [\"floor\"]"] {
+        experiment_of(&gauges(named), STUDY, &table).unwrap_or_else(|e| panic!("{named}: {e}"));
+    }
+    let told = experiment_of(&gauges("base = \"floor\""), STUDY, &table).expect_err("no barrier").to_string();
+    assert!(told.contains("records no table `pressure_profile`"), "{told}");
 }
 
 #[test]

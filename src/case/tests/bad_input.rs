@@ -4,9 +4,9 @@ use super::{FLUME, changed, line_of, report_of};
 use crate::case::parse;
 
 /// Text to replace, by what, text on the line that must be reported (empty: the file as a whole), parts of the report.
-type Bad = (&'static str, &'static str, &'static str, &'static [&'static str]);
+pub type Bad = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
-fn check(table: &[Bad]) {
+pub fn check(table: &[Bad]) {
     for (replace, by, at, contains) in table {
         let text = changed(replace, by);
         let report = report_of(&text);

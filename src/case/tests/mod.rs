@@ -10,6 +10,7 @@ use crate::simulation::{PicShare, Scheme};
 
 mod bad_input;
 mod contacts;
+mod gauges;
 
 const FLUME: &str = include_str!("../../../validation/flume/40deg.toml");
 

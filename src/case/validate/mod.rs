@@ -4,6 +4,7 @@ mod bodies;
 mod boundaries;
 mod contacts;
 mod cost;
+mod gauges;
 mod materials;
 mod sections;
 mod walls;

@@ -1,9 +1,7 @@
-//! Gravity, grid, domain, side walls, stages, gauges, output and numerical settings.
+//! Gravity, grid, domain, side walls, stages, output and numerical settings.
 
 use super::{Checker, text};
-use crate::case::file_name;
 use crate::case::path::KeyPath;
-use crate::case::suggest::did_you_mean;
 
 /// Most samples of the force gauge, and most VTK files.
 const MAX_SAMPLES: f64 = 1.0e8;
@@ -84,104 +82,6 @@ impl Checker<'_> {
             }
         }
         self.positive(&at.key("run").key("end_time_s"), stages.run.end_time_s, 6.0);
-    }
-
-    fn gauges(&mut self) {
-        let (gauges, domain) = (&self.case.gauges, &self.case.domain);
-        let at = KeyPath::top("gauges");
-        self.barriers(&at);
-        let boundaries = || self.case.boundaries.iter().map(|boundary| boundary.name.as_str());
-        if let Some(name) = gauges.base.as_ref().filter(|name| !boundaries().any(|other| other == *name)) {
-            let fix = did_you_mean(name, boundaries());
-            self.not_allowed(&at.key("base"), name, "the name of one of [[boundaries]]", &fix);
-        }
-        self.positive(&at.key("sample_rate_hz"), gauges.sample_rate_hz, 1000.0);
-        for (index, &station) in gauges.stations_m.iter().enumerate() {
-            self.inside(&at.key("stations_m").index(index), station, domain.x_m);
-        }
-        let windows = [("window_x_m", gauges.window_x_m, domain.x_m), ("window_y_m", gauges.window_y_m, domain.y_m)];
-        for (key, window, limits) in windows {
-            let path = at.key(key);
-            if let Some(window) = window {
-                self.interval(&path, window);
-                self.inside(&path.index(0), window[0], limits);
-                self.inside(&path.index(1), window[1], limits);
-            } else if gauges.window_x_m.is_some() || gauges.window_y_m.is_some() {
-                let what = format!("{path} is missing");
-                self.problem(&path, what, &"", "window_x_m and window_y_m together, or neither", "give both");
-            }
-        }
-        self.field_times();
-    }
-
-    /// The barriers whose force is measured: each is one thing, and has files of its own.
-    fn barriers(&mut self, at: &KeyPath) {
-        let gauges = &self.case.gauges;
-        if let Some(name) = &gauges.barrier {
-            self.barrier(&at.key("barrier"), name);
-            if !gauges.barriers.is_empty() {
-                let what = "gauges.barrier and gauges.barriers are both given".to_owned();
-                let all: Vec<String> = gauges.barrier_names().map(|name| format!("{name:?}")).collect();
-                let fix = format!("remove barrier, and write barriers = [{}]", all.join(", "));
-                self.problem(&at.key("barriers"), what, &gauges.barriers, "one of the two", &fix);
-            }
-        }
-        let list = at.key("barriers");
-        for (index, name) in gauges.barriers.iter().enumerate() {
-            let path = list.index(index);
-            self.barrier(&path, name);
-            let file = file_name(name);
-            if let Some(first) = gauges.barriers[..index].iter().position(|other| file_name(other) == file) {
-                let (allowed, fix) = if gauges.barriers[first] == *name {
-                    ("every barrier once", "remove one of them")
-                } else {
-                    ("names whose letters and digits differ: files are called by them", "rename one of the two")
-                };
-                self.not_allowed(&path, name, allowed, fix);
-            } else if index > 0 && ["profile", "outline"].iter().any(|word| file.starts_with(word)) {
-                let allowed = "a name that begins with neither `profile` nor `outline`, as files of other barriers do";
-                self.not_allowed(&path, name, allowed, "rename it, or let it be the first");
-            }
-        }
-    }
-
-    fn barrier(&mut self, path: &KeyPath, name: &str) {
-        let boundaries = || self.case.boundaries.iter().map(|boundary| boundary.name.as_str());
-        let bodies = || self.case.bodies.iter().map(|body| body.name.as_str());
-        let (rigid, body) = (boundaries().any(|b| b == name), bodies().any(|b| b == name));
-        let in_contact = self.case.contacts.iter().any(|c| c.bodies.iter().any(|b| b == name));
-        let fix = match (rigid, body) {
-            (false, false) => did_you_mean(name, boundaries().chain(bodies())),
-            (true, true) => "rename the boundary or the body: both have this name".to_owned(),
-            (false, true) if !in_contact => {
-                format!("add [[contacts]] with `{name}`: what sticks to other bodies has no force to measure")
-            }
-            _ => return,
-        };
-        self.not_allowed(path, &name, "the name of one of [[boundaries]], or of a body in [[contacts]]", &fix);
-    }
-
-    fn field_times(&mut self) {
-        let (times, end) = (&self.case.gauges.field_times_s, self.case.stages.run.end_time_s);
-        let path = KeyPath::top("gauges").key("field_times_s");
-        for (index, &time) in times.iter().enumerate() {
-            let allowed = format!("0 <= time <= stages.run.end_time_s = {}", text(end));
-            let holds = time >= 0.0 && (time <= end || !end.is_finite());
-            self.require(&path.index(index), time, holds, &allowed, "leave this time out, or run longer");
-            if index > 0 && time <= times[index - 1] {
-                let allowed = format!("times that increase: the one before is {}", text(times[index - 1]));
-                self.not_allowed(&path.index(index), &time, &allowed, "sort the times and remove repeated ones");
-            }
-        }
-    }
-
-    fn inside(&mut self, path: &KeyPath, number: f64, [low, high]: [f64; 2]) {
-        // An inverted domain is reported by itself.
-        if low < high {
-            let allowed = format!("inside the domain: from {} to {}", text(low), text(high));
-            let holds = (low..=high).contains(&number);
-            self.require(path, number, holds, &allowed, "move it into the domain, or enlarge the domain");
-        }
     }
 
     fn output_and_numerics(&mut self) {

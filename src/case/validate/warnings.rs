@@ -5,9 +5,10 @@ use super::{Problem, text, toml_text};
 use crate::boundary::BoundaryContact;
 use crate::case::boundary::{Boundary, Shape};
 use crate::case::geometry::{direction, penetration_of_rectangle};
+use crate::case::grid::Domain;
 use crate::case::material::Material;
 use crate::case::path::KeyPath;
-use crate::case::schema::{Body, Case, Domain};
+use crate::case::schema::{Body, Case};
 
 /// An angle in degrees below this and above zero was probably meant in radians.
 const RADIANS_UP_TO: f64 = 1.6;

@@ -1,8 +1,7 @@
 //! Keeps what the figures need of a run.
 
 use super::slip;
-use checkdam::gauge::StructureSample;
-use checkdam::gauge::flow::FieldCell;
+use checkdam::gauge::{FieldCell, StructureSample};
 use checkdam::output::OutputError;
 use checkdam::run::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
 use checkdam::simulation::Simulation;

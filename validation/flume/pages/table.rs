@@ -90,7 +90,7 @@ fn window(flumes: &[CaseRun]) -> String {
             let Some(instant) = instant else { continue };
             for (clock, zero) in [("front at the barrier", flume.get("arrival_s")), ("gate opens", 0.0)] {
                 let row = flume.records.history.iter().find(|r| r.time >= zero + instant);
-                let speeds = row.map_or([f64::NAN; 2], |r| [r.window_speed[1], r.window_speed[0]]).map(cell);
+                let speeds = row.map_or([f64::NAN; 2], |r| [r.window.p95, r.window.mean]).map(cell);
                 let numbers = [datum.value, datum.uncertainty].map(number).join(",");
                 let (name, quantity, kind) = (flume.name, quoted(&datum.quantity), &datum.kind);
                 let time = number((1000.0 * (zero + instant)).round() / 1000.0);

@@ -1,0 +1,112 @@
+use super::super::flow::flowing;
+use super::super::two_bodies::{BODIES, close, point, simulation};
+use super::*;
+use crate::body::Particle;
+use crate::scaffold::THICKNESS;
+
+#[test]
+fn front_is_where_one_percent_of_the_mass_has_passed() {
+    // 300 kg: grains of 1 and 1 kg are not the front, the next of 2 kg is. The rest lies far behind.
+    let light = vec![point(2.0, 0.0, [9.0, 1.0], 1.0), point(1.9, 0.0, [8.0, 1.0], 1.0)];
+    let mut heavy = vec![
+        point(1.5, 0.0, [7.0, 1.0], 1.0),
+        // Within 0.05 m behind it, and just beyond.
+        point(1.46, 0.0, [1.0, 0.0], 1.0),
+        point(1.44, 0.0, [-50.0, 0.0], 1.0),
+    ];
+    heavy.extend((0..146).map(|k| point(1.0 - 1e-3 * f64::from(k), 0.0, [-100.0, 0.0], 1.0)));
+    let sim = simulation(0.02, [light, heavy], vec![]);
+    assert!(close(sim.mass(), 300.0));
+    let mut gauge = FrontGauge { keys: vec![5], order: vec![(5, 5)], found: vec![[5.0; 4]], head: vec![[5.0; 4]] };
+    let front = gauge.sample(&sim, &[]);
+    assert_eq!(front.x, 1.5);
+    assert!(close(front.velocity, (9.0 + 8.0 + 2.0 * 7.0 + 2.0 * 1.0) / 6.0), "{front:?}");
+}
+
+#[test]
+fn depth_of_the_front_is_that_of_the_fullest_strip() {
+    // Strips of 0.04 m; 0.12 m of them count, as 0.1 m are 2.5. Volumes in units of a point's.
+    let strip = |back: f64, ratios: &[f64]| -> Vec<Particle> {
+        ratios.iter().map(|&r| point(1.5 - back, 0.0, [0.0; 2], r)).collect()
+    };
+    let deepest = |behind: &[(f64, &[f64])]| {
+        let points = behind.iter().flat_map(|&(back, ratios)| strip(back, ratios)).collect();
+        let sim = simulation(0.02, [points, vec![]], vec![]);
+        let front = FrontGauge::default().sample(&sim, &[]);
+        assert_eq!(front.x, 1.5);
+        front.depth * 0.04 * THICKNESS / BODIES[0].1
+    };
+    // Torn material counts with a volume ratio of at most 1.5, dense material with its own.
+    assert!(close(deepest(&[(0.0, &[1.0, 1.0]), (0.05, &[0.9, 1.2, 3.0]), (0.09, &[1.0])]), 3.6));
+    assert!(close(deepest(&[(0.0, &[1.0, 0.5]), (0.03, &[1.0]), (0.05, &[1.0, 1.0])]), 2.5));
+    assert!(close(deepest(&[(0.0, &[1.0]), (0.119, &[1.0, 1.0]), (0.121, &[1.0; 9])]), 2.0));
+    // The far end of the last strip is open.
+    let points = [strip(0.0, &[1.0]), strip(0.125, &[1.0])].concat();
+    let sim = simulation(0.0625, [points, vec![]], vec![]);
+    assert!(close(FrontGauge::default().sample(&sim, &[]).depth * 0.125 * THICKNESS, BODIES[0].1));
+    // What is ahead of the front has no depth.
+    let mut points = strip(0.0, &[1.0; 200]);
+    points.extend(strip(-1.0, &[1.0, 1.0]));
+    let sim = simulation(0.02, [points, vec![]], vec![]);
+    let depth = FrontGauge::default().sample(&sim, &[]).depth;
+    assert!(close(depth * 0.04 * THICKNESS, 200.0 * BODIES[0].1));
+    // On a coarse grid one strip is left, wider than 0.1 m.
+    let points = [strip(0.0, &[1.0]), strip(0.3, &[1.0])].concat();
+    let sim = simulation(0.2, [points, vec![]], vec![]);
+    assert!(close(FrontGauge::default().sample(&sim, &[]).depth * 0.4 * THICKNESS, 2.0 * BODIES[0].1));
+}
+
+/// The front as it was first written: all points in order.
+fn front_of_all(simulation: &Simulation) -> Front {
+    let mut all: Vec<(f64, f64, f64, f64)> = flowing(simulation, &[])
+        .map(|(b, p)| {
+            let body = &simulation.bodies()[b];
+            (p.x[0], p.v[0], body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO))
+        })
+        .collect();
+    all.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    let mass: f64 = all.iter().map(|p| p.2).sum();
+    let mut passed = 0.0;
+    let first = all.iter().find(|p| {
+        passed += p.2;
+        passed >= FRONT_SHARE * mass
+    });
+    let x = first.map_or(0.0, |p| p.0);
+    let (mut momentum, mut head) = (0.0, 0.0);
+    for p in all.iter().take_while(|p| p.0 >= x - FRONT_LENGTH) {
+        momentum += p.2 * p.1;
+        head += p.2;
+    }
+    let strip = 2.0 * simulation.spacing();
+    let strips = (0.1 / strip).round().max(1.0) as usize;
+    let mut volumes = vec![0.0; strips];
+    for p in all.iter().skip_while(|p| p.0 > x).take_while(|p| p.0 > x - strips as f64 * strip) {
+        volumes[(((x - p.0) / strip) as usize).min(strips - 1)] += p.3;
+    }
+    let depth = volumes.iter().fold(0.0, |a: f64, v| a.max(v / (strip * simulation.thickness())));
+    Front { x, velocity: momentum / head, depth }
+}
+
+#[test]
+fn a_head_in_order_gives_the_bits_of_all_points_in_order() {
+    let mut state = 3u64;
+    let mut uniform = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut gauge = FrontGauge::default();
+    for (k, counts) in [[1, 0], [7, 0], [300, 0], [2000, 0], [300, 200]].into_iter().enumerate() {
+        for ties in [false, true] {
+            let mut points = |count: usize| -> Vec<Particle> {
+                let mut one = || {
+                    let x = uniform() - 0.6;
+                    let x = if ties { (50.0 * x).round() / 50.0 } else { x };
+                    point(x, 0.2 * uniform(), [3.0 * uniform(), 0.0], 0.9 + uniform())
+                };
+                (0..count).map(|_| one()).collect()
+            };
+            let sim = simulation(0.02, [points(counts[0]), points(counts[1])], vec![]);
+            assert_eq!(gauge.sample(&sim, &[]), front_of_all(&sim), "{k}, {ties}");
+        }
+    }
+}
