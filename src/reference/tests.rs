@@ -143,7 +143,8 @@ const SMALL: &str = r#"
     grid = { spacing_m = 0.1, thickness_m = 1 }
     domain = { x_m = [0, 2], y_m = [0, 1] }
     materials.sand = { law = "drucker_prager", density_kg_per_m3 = 2000, young_pa = 1e8, poisson = 0.2, friction_angle_deg = 30 }
-    bodies = [{ name = "a", material = "sand", x_m = [0, 1], y_m = [0, 0.5] }, { name = "b", material = "sand", x_m = [1, 2], y_m = [0, 0.5] }, { name = "c", material = "sand", x_m = [0, 1], y_m = [0.5, 1] }]
+    materials.stone = { law = "linear_elastic", density_kg_per_m3 = 2600, young_pa = 1e8, poisson = 0.2 }
+    bodies = [{ name = "a", material = "stone", x_m = [0, 1], y_m = [0, 0.5] }, { name = "b", material = "stone", x_m = [1, 2], y_m = [0, 0.5] }, { name = "c", material = "sand", x_m = [0, 1], y_m = [0.5, 1] }]
     boundaries = [{ name = "gate", kind = "gate", foot_m = [2, 0], height_m = 1, contact = "rough" }]
     contacts = [{ bodies = ["a", "b"], friction = 0.1 }, { bodies = ["a", "c"], friction = 0.1, gap = "positions" }, { bodies = ["b", "c"], friction = 0.1 }]
     stages.run = { end_time_s = 1 }
