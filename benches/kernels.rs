@@ -9,7 +9,8 @@ mod scenes;
 use checkdam::band::{Band, NodeSum};
 use checkdam::body::{Body, Particle, Points};
 use checkdam::boundary::nodes::{self, Tally};
-use checkdam::boundary::{Boundary, Friction};
+use checkdam::boundary::search::{Found, find_holds};
+use checkdam::boundary::{Boundary, BoundaryContact, Friction};
 use checkdam::constitutive::{AnyLaw, Increment, Law, LinearElastic, PointState, Stress};
 use checkdam::contact::node;
 use checkdam::contact::pair::Touch;
@@ -161,10 +162,10 @@ fn contact(c: &mut Criterion) {
     let wall = Boundary::plane("wall", corner, [1.0, 0.0].into(), Friction::Coulomb(0.3));
     let mut group = c.benchmark_group("contact with rigid boundaries");
     for (name, boundaries, number) in [("face", vec![floor.clone()], 1), ("corner", vec![floor, wall], 2)] {
-        let mut holds = Vec::new();
-        nodes::find_holds(&boundaries, &[0], &f.grid, &mut holds);
+        let mut found = Found::default();
+        find_holds(&boundaries, &[0], &f.grid, BoundaryContact::Surface, &mut found);
         let mut holds: Vec<_> =
-            holds.chunk_by(|a, b| a.node == b.node).filter(|h| h.len() == number).map(<[_]>::to_vec).collect();
+            found.holds.chunk_by(|a, b| a.node == b.node).filter(|h| h.len() == number).map(<[_]>::to_vec).collect();
         let mut tallies = vec![Tally::default(); boundaries.len()];
         group.throughput(Throughput::Elements(holds.len() as u64));
         group.bench_function(name, |b| {

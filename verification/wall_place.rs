@@ -47,11 +47,14 @@ const FIGURES: &[Figure] = &[curves(
     "wall_place_plot",
     Curves {
         x: "offset_cells",
-        x_title: "place of the wall between two columns of nodes (cells)",
+        x_title: "offset of the wall from the nodes (cells)",
         y_title: "force over closed form",
         curves: &[measured("force_over_exact", "")],
-        panels: &[panel("along the grid", &[("angle_deg", "0")])],
-        split: &[("contact", "contact: "), ("thickness_cells", "thickness in cells: ")],
+        panels: &[
+            panel("contact on the surface", &[("angle_deg", "0"), ("contact", "surface")]),
+            panel("contact at nodes, not judged", &[("angle_deg", "0"), ("contact", "nodes")]),
+        ],
+        split: &[("thickness_cells", "thickness of the wall (cells) ")],
         ..Curves::LINEAR
     },
 )];

@@ -7,7 +7,7 @@
 //! Elsewhere: rigid obstacles, and essential (Dirichlet) conditions at nodes: free slip, no slip, unilateral, fixed.
 
 pub mod nodes;
-pub(crate) mod search;
+pub mod search;
 pub mod surface;
 
 use nalgebra::Vector2;
