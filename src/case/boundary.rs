@@ -33,7 +33,7 @@ pub struct Boundary {
     /// `kind = "wall"` or `"gate"`. Example: `"right"`.
     pub material_side: Option<MaterialSide>,
     /// Thickness on the side away from the material. Default: four cells. Allowed: only with `kind = "wall"` or
-    /// `"gate"`; 0 or more, and with `numerics.boundary_contact = "nodes"` at least three cells. Example: `0.1`.
+    /// `"gate"`; 0 or more, and with `numerics.boundary_contact = "nodes"` at least three cells, a gate one. Example: `0.1`.
     pub thickness_m: Option<f64>,
     /// Names of the bodies that it acts on. Default: all bodies. Allowed: at least one name of `[[bodies]]`. Example:
     /// `["sand"]`.

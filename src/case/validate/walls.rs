@@ -8,8 +8,9 @@ use crate::case::path::KeyPath;
 use crate::case::schema::Case;
 
 /// A wall that acts at the nodes inside it needs so many cells of thickness: two rows that hold what comes from its face, and one for
-/// its back.
-const NODES_THICKNESS_CELLS: f64 = 3.0;
+/// its back. A gate has no back.
+const WALL_CELLS: (f64, &str) = (3.0, "three cells");
+const GATE_CELLS: (f64, &str) = (1.0, "one cell");
 /// A wall lower than this is not seen by the flow.
 const LEAST_HEIGHT_CELLS: f64 = 1.0;
 /// Openings narrower than so many cells let through another share of the material on another grid.
@@ -30,9 +31,9 @@ impl Checker<'_> {
                 && boundary.contact != ContactKind::Bonded
                 && at_nodes
             {
-                let least = NODES_THICKNESS_CELLS * h;
-                let allowed =
-                    format!("{} m or more, three cells: this contact acts at the nodes inside the wall", text(least));
+                let (cells, words) = if boundary.kind == BoundaryKind::Gate { GATE_CELLS } else { WALL_CELLS };
+                let least = cells * h;
+                let allowed = format!("{} m or more, {words}: this contact acts at the nodes inside", text(least));
                 let fix = "use numerics.boundary_contact = \"surface\", a thicker wall, or a finer grid";
                 self.require(&path, thickness, thickness >= least * (1.0 - 1e-9), &allowed, fix);
             } else {

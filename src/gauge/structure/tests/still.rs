@@ -343,9 +343,10 @@ fn a_gauge_on_a_body_reads_what_the_contacts_give_to_it() {
                     let [p, q] = [out, up].map(|n| onto[0] * n[0] + onto[1] * n[1]);
                     moment += s * -p + d * q;
                     force -= p / sim.time_step().dt;
-                    let bin = (s / CELL).round().max(0.0) as usize;
-                    if let Some(sum) = profile.get_mut(bin) {
-                        *sum -= p;
+                    // Linear between two bins, so that the moment is kept.
+                    let height = (s / CELL).clamp(0.0, (profile.len() - 1) as f64);
+                    for (bin, sum) in profile.iter_mut().enumerate() {
+                        *sum -= p * (1.0 - (height - bin as f64).abs()).max(0.0);
                     }
                 }
                 assert!(near(gauge.step_force(&sim), force), "{view:?}");
