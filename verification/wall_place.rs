@@ -47,7 +47,7 @@ const FIGURES: &[Figure] = &[curves(
     "wall_place_plot",
     Curves {
         x: "offset_cells",
-        x_title: "offset of the wall from the nodes (cells)",
+        x_title: "place of the wall between two columns of nodes (cells)",
         y_title: "force over closed form",
         curves: &[measured("force_over_exact", "")],
         panels: &[
