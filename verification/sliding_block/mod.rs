@@ -11,6 +11,8 @@
 //! loose, up to a tenth of a cell, does not fall back. A rigid block cannot shake, so these checks use pure PIC, which takes
 //! the shaking and leaves translation alone. The table shows the undamped block, too; it is not judged.
 
+mod placements;
+
 use super::report::named_csv;
 use super::scene::{Brick, Material, THICKNESS, centre, points_by_number, run_until, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
@@ -44,12 +46,14 @@ pub const RUNG: Rung = Rung {
         (FaultKind::Density, 1.03),
         (FaultKind::ContactForce, 1.03),
     ],
-    under_fault: "all",
+    under_fault: "all; of the placements, one for each angle",
     figures: FIGURES,
 };
 
 /// Its figures.
-const FIGURES: &[Figure] = &[curves(
+const FIGURES: &[Figure] = &[SLIP, placements::FIGURE];
+
+const SLIP: Figure = curves(
     "sliding_block_slip",
     "sliding_block_slip_plot",
     Curves {
@@ -65,7 +69,7 @@ const FIGURES: &[Figure] = &[curves(
         split: &[("block", ""), ("plane_to_grid_deg", "plane to grid (degrees) ")],
         ..Curves::LINEAR
     },
-)];
+);
 
 const BLOCK: Material = Material::new(2e7, 0.3, 1500.0);
 const H: f64 = 0.05;
@@ -83,12 +87,23 @@ struct Setting {
     plane: f64,
     slope: f64,
     friction: f64,
+    /// The block's lower left corner, which lies on the plane, m.
+    corner: [f64; 2],
+    /// Whether the slope falls to the left, seen with the normal up.
+    leftward: bool,
 }
 
 impl Setting {
+    /// The plane and slope in degrees, at the place of the grid that most checks have, falling to the right.
+    fn new(name: &'static str, plane: f64, slope: f64, friction: f64) -> Self {
+        let [plane, slope] = [plane, slope].map(f64::to_radians);
+        Self { name, plane, slope, friction, corner: [0.013, 0.007], leftward: false }
+    }
+
     /// Down the slope.
     fn tangent(&self) -> Vector2<f64> {
-        Vector2::new(libm::cos(self.plane), -libm::sin(self.plane))
+        let right = Vector2::new(libm::cos(self.plane), -libm::sin(self.plane));
+        if self.leftward { -right } else { right }
     }
 
     fn normal(&self) -> Vector2<f64> {
@@ -96,7 +111,7 @@ impl Setting {
     }
 
     fn brick(&self) -> Brick {
-        Brick { angle: -self.plane, ..Brick::new([0.013, 0.007], CELLS, H) }
+        Brick { angle: -self.plane, ..Brick::new(self.corner, CELLS, H) }
     }
 
     /// A simulation with these points and friction, and share of PIC.
@@ -139,7 +154,6 @@ fn moved(sim: &Simulation, start: [f64; 2], setting: &Setting) -> (f64, f64) {
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();
-    let rad = f64::to_radians;
     let mut rows = Vec::new();
     for (name, plane, slope, friction) in [
         ("40 deg, plane along the grid", 0.0, 40.0, 0.4),
@@ -148,7 +162,7 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
         ("23 deg, plane at 23 deg to the grid", 23.0, 23.0, 0.4),
         ("31 deg, plane at 7.3 deg to the grid", 7.3, 31.0, 0.3),
     ] {
-        let setting = Setting { name, plane: rad(plane), slope: rad(slope), friction };
+        let setting = Setting::new(name, plane, slope, friction);
         let (sim, moved) = slip(&setting, RIGID, fault, &mut rows)?;
         judge_slip(&sim, moved, &setting, fault, &mut outcome);
         if plane == 0.0 {
@@ -156,11 +170,12 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
         }
     }
     for (name, plane) in [("0.9 on 40 deg along the grid", 0.0), ("0.9 on 40 deg at 40 deg to the grid", 40.0)] {
-        stick(&Setting { name, plane: rad(plane), slope: rad(40.0), friction: 0.9 }, fault, &mut outcome)?;
+        stick(&Setting::new(name, plane, 40.0, 0.9), fault, &mut outcome)?;
     }
     for (name, plane) in [("level", 0.0), ("level, at 17 deg to the grid", 17.0)] {
-        arrest(&Setting { name, plane: rad(plane), slope: 0.0, friction: 0.4 }, fault, &mut outcome)?;
+        arrest(&Setting::new(name, plane, 0.0, 0.4), fault, &mut outcome)?;
     }
+    placements::judge(fault, &mut outcome)?;
     let header = [
         "plane_to_grid_deg",
         "slope_deg",
