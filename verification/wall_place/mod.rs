@@ -7,6 +7,8 @@
 //! The same scenes with contact at the nodes inside a wall, as Ng et al. have it, stand beside it in the table. They are not judged but
 //! for one thing: that the scene tells the two apart.
 
+mod sides;
+
 use super::report::named_csv;
 use super::scene::{Brick, Material, THICKNESS, scene};
 use super::{Fault, FaultKind, Outcome, Rung, RungFailure};
@@ -37,12 +39,14 @@ pub const RUNG: Rung = Rung {
 ",
     run,
     covers: &[(FaultKind::Gravity, 1.03), (FaultKind::Density, 1.03), (FaultKind::ContactForce, 1.03)],
-    under_fault: "all",
+    under_fault: "all; of the sides of a wall, two places",
     figures: FIGURES,
 };
 
 /// Its figures.
-const FIGURES: &[Figure] = &[curves(
+const FIGURES: &[Figure] = &[SETTINGS, sides::FIGURE];
+
+const SETTINGS: Figure = curves(
     "wall_place_settings",
     "wall_place_plot",
     Curves {
@@ -57,7 +61,7 @@ const FIGURES: &[Figure] = &[curves(
         split: &[("thickness_cells", "thickness of the wall (cells) ")],
         ..Curves::LINEAR
     },
-)];
+);
 
 const FILL: Material = Material::new(1e6, 0.3, 1500.0);
 const HEIGHT: f64 = 0.4;
@@ -65,6 +69,17 @@ const HEIGHT: f64 = 0.4;
 const CELLS: usize = 8;
 const GRAVITY: f64 = 9.81;
 const CONTACTS: [&str; 2] = ["surface", "nodes"];
+
+/// Where the fill is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// Before the face of the wall.
+    Face,
+    /// Before the face, and all of it mirrored at a column of nodes.
+    Mirror,
+    /// Behind the wall, whose face is free.
+    Back,
+}
 
 /// Where the scene lies.
 #[derive(Debug, Clone, Copy)]
@@ -78,6 +93,7 @@ struct Place {
     angle: f64,
     /// Cells over the height.
     cells: usize,
+    side: Side,
 }
 
 /// What the wall shows.
@@ -89,19 +105,19 @@ struct Seen {
 }
 
 fn places() -> Vec<Place> {
-    let mut places = Vec::new();
+    let (mut places, side) = (Vec::new(), Side::Face);
     for contact in [BoundaryContact::Surface, BoundaryContact::Nodes] {
         for thickness in [0.0, 0.1, 1.0, 4.0] {
             for k in 0..8u32 {
                 // Every eighth along, and every one across, in another order.
                 let offset = [f64::from(k) / 8.0, f64::from(3 * k % 8) / 8.0];
-                places.push(Place { contact, thickness, offset, angle: 0.0, cells: CELLS });
+                places.push(Place { contact, thickness, offset, angle: 0.0, cells: CELLS, side });
             }
             for (k, angle) in [7.0, 24.0, 45.0, 80.0, 173.0, -60.0].into_iter().enumerate() {
                 let offset = [0.3 + 0.1 * k as f64, 0.7 - 0.1 * k as f64];
-                places.push(Place { contact, thickness, offset, angle, cells: CELLS });
+                places.push(Place { contact, thickness, offset, angle, cells: CELLS, side });
                 if contact == BoundaryContact::Surface {
-                    places.push(Place { contact, thickness, offset, angle, cells: 2 * CELLS });
+                    places.push(Place { contact, thickness, offset, angle, cells: 2 * CELLS, side });
                 }
             }
         }
@@ -120,13 +136,15 @@ impl Place {
         let h = HEIGHT / self.cells as f64;
         let corner = (along * self.offset[0] + up * self.offset[1]) * h;
         let brick = Brick { angle, ..Brick::new(corner.into(), [self.cells, self.cells], h) };
-        let foot = corner + along * HEIGHT;
+        let mut points = brick.points();
+        points.iter_mut().for_each(|p| p.x = self.side.seen(p.x.into()).into());
+        let [along, up, corner] = [along, up, corner].map(|v| self.side.seen(v));
         let boundaries = vec![
-            Boundary::wall("wall", foot, up, 1.5 * HEIGHT, self.thickness * h, Friction::Smooth),
+            self.side.wall([corner + along * HEIGHT, along, up], 1.5 * HEIGHT, self.thickness * h),
             Boundary::plane("other wall", corner, along, Friction::Smooth),
             Boundary::plane("base", corner, up, Friction::Smooth),
         ];
-        let mut scene = scene(&brick, FILL.law(fault), FILL.density * fault.density, brick.points(), boundaries);
+        let mut scene = scene(&brick, FILL.law(fault), FILL.density * fault.density, points, boundaries);
         scene.numerics.pic = PicShare::Fraction(0.02);
         scene.numerics.boundary_contact = self.contact;
         let mut sim = Simulation::new(scene);
@@ -145,10 +163,10 @@ impl Place {
                 time += sim.time_step().dt;
             }
         }
-        let wall = &sim.boundaries()[0];
-        let past = sim.particles().filter(|(_, p)| wall.face_coordinates(p.x).0 < 0.0).count() as f64;
+        let past = sim.particles().filter(|(_, p)| (Vector2::from(p.x) - corner).dot(&along) > HEIGHT).count() as f64;
         let mass = sim.bodies()[0].point_mass;
-        Ok(Seen { force: impulse / time / THICKNESS, arm: moment / impulse, past: past * mass })
+        let arm = self.side.turn() * moment / impulse;
+        Ok(Seen { force: impulse / time / THICKNESS, arm, past: past * mass })
     }
 }
 
@@ -236,6 +254,7 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
             .because("a wall holds what comes from the side that it faces")
             .from(Kind::Conservation, "impenetrability"),
     );
+    sides::judge(fault, exact, &mut outcome)?;
     // Under a fault it is enough that the walls along the grid notice.
     if *fault == Fault::NONE {
         turned(&|cells| of(BoundaryContact::Surface, true, cells).map(|(_, s)| error(s).abs()).collect(), &mut outcome);
