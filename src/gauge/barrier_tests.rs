@@ -233,3 +233,94 @@ fn the_moment_of_the_profile_is_that_of_the_forces_wherever_the_foot_lies() {
         }
     }
 }
+
+/// Forces anywhere on a face, whose foot lies at eight places between nodes and which stands upright or leans: the bins keep their sum
+/// and their moment about the foot. The crest is no multiple of a cell above it.
+#[test]
+fn bins_keep_force_and_moment_to_round_off() {
+    for lean in [0.0, 0.2, 0.7] {
+        for k in 0..8 {
+            let foot = 0.125 * f64::from(k);
+            let height = 6.3;
+            let bins = (height - NEAR).ceil() as usize + 1;
+            let mut profile = vec![0.0; bins];
+            let (mut force, mut moment) = (0.0, 0.0);
+            for node in 1..8 {
+                // Where a row of nodes meets the face, cells along it.
+                let along = (f64::from(node) - foot) / libm::cos(lean);
+                if along > height {
+                    continue;
+                }
+                let f = 1.0 + libm::sin(f64::from(node));
+                (force, moment) = (force + f, moment + f * along);
+                let mut parts = 0;
+                for (bin, share) in shares(along, bins) {
+                    profile[bin] += share * f;
+                    parts += 1;
+                }
+                assert!(parts == 2 || (along - along.round()).abs() < NEAR, "{lean} {k} {along}: {parts} bins");
+            }
+            let sum: f64 = profile.iter().sum();
+            let turn: f64 = profile.iter().enumerate().map(|(bin, f)| bin as f64 * f).sum();
+            assert!((sum / force - 1.0).abs() < 1e-12, "{lean} {k}: {sum} {force}");
+            assert!((turn / moment - 1.0).abs() < 1e-12, "{lean} {k}: {turn} {moment}");
+        }
+    }
+}
+
+#[test]
+fn a_bin_takes_all_that_acts_on_it_and_the_ends_what_lies_beyond() {
+    let of = |height: f64, bins: usize| shares(height, bins).collect::<Vec<_>>();
+    assert_eq!(of(2.0, 7), [(2, 1.0)]);
+    assert_eq!(of(2.0 + 0.9 * NEAR, 7), [(2, 1.0)]);
+    assert_eq!(of(2.0 - 0.9 * NEAR, 7), [(2, 1.0)]);
+    assert_eq!(of(2.25, 7), [(2, 0.75), (3, 0.25)]);
+    assert_eq!(of(-1.5, 7), [(0, 1.0)]);
+    assert_eq!(of(9.5, 7), [(6, 1.0)]);
+    assert!(of(1.0, 0).is_empty());
+}
+
+/// A wall that stands in a base, whose first row of nodes lies below the foot: what acts there counts at the foot, so the moment of the
+/// profile is the larger by what that has about the foot, and by nothing else. Here that is 0.9 %,
+/// and 2.4 % where the wall leans (seen, not derived).
+#[test]
+fn on_a_base_the_moment_lacks_only_what_acts_below_the_foot() {
+    for (lean, most) in [(0.0, 0.01), (0.2, 0.03)] {
+        for k in 0..8 {
+            let foot = Vector2::new(0.003, (0.125 * f64::from(k) - 0.5) * H);
+            let brick = Brick::new([-3.0 * H, foot.y], [3, 4], H);
+            let law = AnyLaw::LinearElastic(LinearElastic::new(1e5, 0.2));
+            let mut points = brick.points();
+            points.iter_mut().for_each(|p| p.v = [2.0, 0.0]);
+            let tangent = Vector2::new(libm::sin(lean), libm::cos(lean));
+            let wall = Boundary::wall("wall", foot, tangent, HEIGHT + 0.3 * H, 4.0 * H, Friction::Smooth);
+            let base = Boundary::plane("base", foot, Vector2::y(), Friction::Smooth);
+            let mut scene = scene(&brick, law, DENSITY, points, vec![wall, base]);
+            scene.gravity = [0.0, -9.81];
+            let mut sim = Simulation::new(scene);
+            let mut gauge = BarrierGauge::new(&sim, 0);
+            let mut below = 0.0;
+            for _ in 0..40 {
+                sim.step().unwrap();
+                gauge.after_step(&sim);
+                let holds = sim.holds().filter(|h| h.boundary == 0).map(|h| (h.along, h.vector_impulse()));
+                let sites = sim.sites().iter().filter(|s| s.boundary == 0).map(|s| (s.along, s.vector_impulse()));
+                let normal = sim.boundaries()[0].normal;
+                for (along, p) in holds.chain(sites).filter(|(along, p)| *along < 0.0 && *p != [0.0; 2]) {
+                    assert!(along > -2.0 * H, "{lean} {k}: {along}");
+                    below += Vector2::from(p).dot(&normal) * along;
+                }
+            }
+            let sample = gauge.sample();
+            let rows = gauge.profile(THICKNESS);
+            let last = rows.len() - 1;
+            let force = |k: usize| rows[k].1 * if k == 0 || k == last { 0.5 * H } else { H } * THICKNESS;
+            let sum: f64 = (0..=last).map(force).sum();
+            let moment: f64 = (0..=last).map(|k| force(k) * rows[k].0).sum();
+            let below = below / sample.duration;
+            assert!(sample.normal > 10.0 && close(sum, sample.normal), "{lean} {k}: {sum} {sample:?}");
+            assert!(close(moment + below, sample.moment), "{lean} {k}: {moment} {below} {sample:?}");
+            assert!((moment / sample.moment - 1.0).abs() < most, "{lean} {k}: {moment} {sample:?}");
+        }
+    }
+}
