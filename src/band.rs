@@ -133,6 +133,12 @@ pub struct BandSums {
     pub pic_loss: f64,
 }
 
+/// A band and the one before it, which reaches its first nodes.
+pub fn with_before(bands: &mut [Band], k: usize) -> (Option<&mut Band>, &mut Band) {
+    let (before, rest) = bands.split_at_mut(k);
+    (before.last_mut(), &mut rest[0])
+}
+
 impl Band {
     /// Number of points.
     pub fn len(&self) -> usize {

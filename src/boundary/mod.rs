@@ -198,6 +198,14 @@ impl Boundary {
         }
     }
 
+    /// Extent of a wall behind its face, m; infinite for a plane.
+    pub fn thickness(&self) -> f64 {
+        match self.solid {
+            Solid::HalfSpace { .. } => f64::INFINITY,
+            Solid::Slab { thickness, .. } => thickness,
+        }
+    }
+
     /// Distance from the (infinitely extended) face, positive on the material's side, and position along it; m.
     pub fn face_coordinates(&self, x: [f64; 2]) -> (f64, f64) {
         let r = Vector2::from(x) - self.foot();

@@ -23,11 +23,30 @@ pub struct Found {
     pub sites: Vec<Site>,
 }
 
+/// A side of a boundary that material may meet: its face, or the back of a wall as if that were its face.
+struct Face {
+    /// Index of the boundary.
+    index: usize,
+    side: Boundary,
+    /// Whether the wall is so thin that points decide about contact.
+    plate: bool,
+    /// Axis of the grid lines that cross it most steeply.
+    axis: usize,
+    /// Which way along it leads out of the boundary, 1 or -1.
+    toward: f64,
+    /// How much nearer to the surface the next node lies along such a line, m.
+    step: f64,
+    /// Distance of such lines along the face, m.
+    line: f64,
+}
+
 /// A search on one grid.
 struct Search<'a> {
     boundaries: &'a [Boundary],
     bodies: &'a [usize],
     grid: &'a ActiveGrid,
+    /// Of the boundaries that act on their surface, in their order.
+    faces: Vec<Face>,
     tolerance: f64,
     contact: BoundaryContact,
 }
@@ -42,14 +61,53 @@ pub fn find_holds(
 ) {
     found.holds.clear();
     found.sites.clear();
-    let search = Search { boundaries, bodies, grid, tolerance: 1e-6 * grid.spacing, contact };
+    let mut search = Search { boundaries, bodies, grid, faces: Vec::new(), tolerance: 1e-6 * grid.spacing, contact };
+    if contact == BoundaryContact::Surface {
+        let still = search.acting().filter(|(_, b)| b.is_still());
+        search.faces = still.flat_map(|(index, b)| Face::of(index, b, grid.spacing)).collect();
+    }
     for (node, x) in grid.nodes() {
-        for (index, b) in search.acting() {
-            match contact == BoundaryContact::Surface && b.is_still() {
-                true => search.on_surface(node, x, index, found),
-                false => found.holds.extend(search.at_node(node, x, index)),
+        for (index, _) in search.acting() {
+            let first = search.faces.partition_point(|f| f.index < index);
+            let own = &search.faces[first..][..search.faces[first..].partition_point(|f| f.index == index)];
+            match own.is_empty() {
+                true => found.holds.extend(search.at_node(node, x, index)),
+                false => search.on_surface(node, x, own, found),
             }
         }
+    }
+}
+
+impl Face {
+    /// The sides of a boundary that contact on the surface knows.
+    fn of(index: usize, b: &Boundary, spacing: f64) -> Vec<Self> {
+        let sides = match b.solid {
+            Solid::Slab { face_only: false, .. } => vec![b.clone(), b.back()],
+            _ => vec![b.clone()],
+        };
+        let face = |side: Boundary| {
+            let axis = side.normal.iamax();
+            let [normal, tangent] = [side.normal[axis], side.tangent[1 - axis]];
+            Self {
+                index,
+                plate: side.height().is_finite() && !side.is_gate() && side.thickness() < PLATE * spacing,
+                axis,
+                toward: normal.signum(),
+                step: normal.abs() * spacing,
+                line: spacing / tangent.abs(),
+                side,
+            }
+        };
+        sides.into_iter().map(face).collect()
+    }
+
+    /// Within this distance of the face a node lies on it, m.
+    fn near(&self) -> f64 {
+        NEAR * self.step
+    }
+
+    fn is_plane(&self) -> bool {
+        self.side.height().is_infinite()
     }
 }
 
@@ -75,56 +133,64 @@ impl<'a> Search<'a> {
     fn is_of_another(&self, x: [f64; 2], index: usize) -> bool {
         let own = &self.boundaries[index];
         let smooth = |b: &Boundary| b.is_still() && b.height().is_infinite() && b.normal.dot(&own.normal) > SMOOTH;
-        let others = self.acting().filter(|(other, b)| *other != index && smooth(b));
+        let mut others = self.acting().filter(|(other, b)| *other != index && smooth(b));
         let depth = own.depth(x);
-        others.into_iter().any(|(other, b)| {
+        others.any(|(other, b)| {
             let more = b.depth(x) - depth;
             // Of two that coincide the first counts.
             more > self.tolerance || (more >= -self.tolerance && other < index)
         })
     }
 
-    /// The node, if it lies on the surface or deeper than the first one behind it; the crossing before it otherwise.
-    fn on_surface(&self, node: usize, x: [f64; 2], index: usize, found: &mut Found) {
-        let b = &self.boundaries[index];
-        if b.is_plate(self.grid.spacing) {
-            found.sites.extend(self.crossing(node, x, index, b, true));
-            found.sites.extend(self.crossing(node, x, index, &b.back(), true));
-            return;
-        }
-        let (d, s) = b.face_coordinates(x);
-        let near = NEAR * self.step(b);
-        if b.height().is_infinite() && d <= near && self.is_of_another(x, index) {
-            return;
-        }
-        if let Some(site) = self.crossing(node, x, index, b, false) {
-            found.sites.push(site);
-        } else if d < -near || d <= self.tolerance {
-            // What passes beside an end of a wall passes along all of it.
-            let line = self.grid.spacing / b.tangent[1 - b.normal.iamax()].abs();
-            let passes = self.end(b, s, 0.5 * line) == Some(End::Foot) && !b.is_lifted();
-            if !passes {
-                let hold = self.at_node(node, x, index);
-                found.holds.extend(hold.map(|h| h.clear_of_edge(0.5 * line)));
+    /// What a boundary with these faces does to the node: the crossing between it and the next one before a face; else the node
+    /// itself, on a face or inside.
+    fn on_surface(&self, node: usize, x: [f64; 2], faces: &[Face], found: &mut Found) {
+        let before = found.sites.len();
+        for face in faces {
+            let (d, _) = face.side.face_coordinates(x);
+            let first = d <= face.near() && d + face.step > face.near();
+            if !first {
+                continue;
             }
-        } else if d <= near && self.is_on_face(b, x, s, 0.0) {
-            let contact = Contact { normal: b.normal.into(), along: s };
-            found.holds.push(Hold::new(node, x, index, b, contact, true));
+            let at = face.crossing_point(x, d, self.grid.spacing);
+            if face.is_plane() && d < -face.near() && self.is_of_another(at.into(), face.index) {
+                let mut next = Vector2::from(x);
+                next[face.axis] += face.toward * self.grid.spacing;
+                // The other plane has the crossing on this piece of the line.
+                if !self.is_buried(next.into(), -face.near()) {
+                    return;
+                }
+            } else {
+                found.sites.extend(self.crossing(node, x, face, at, d));
+            }
         }
-    }
-
-    /// How much nearer to the surface the next node lies along the line that crosses it most steeply, m.
-    fn step(&self, b: &Boundary) -> f64 {
-        b.normal[b.normal.iamax()].abs() * self.grid.spacing
+        let Some(face) = faces.first() else { return };
+        if found.sites.len() > before || face.plate || face.is_plane() && self.is_of_another(x, face.index) {
+            return;
+        }
+        for face in faces {
+            let (d, s) = face.side.face_coordinates(x);
+            if d > self.tolerance && d <= face.near() && self.is_on_face(&face.side, x, s, 0.0) {
+                let contact = Contact { normal: face.side.normal.into(), along: s };
+                let b = &self.boundaries[face.index];
+                found.holds.push(Hold::new(node, x, face.index, b, contact, true));
+                return;
+            }
+        }
+        // What passes beside an end of a wall passes along all of it.
+        let (_, s) = face.side.face_coordinates(x);
+        let half = 0.5 * face.line;
+        let passes = self.end(&face.side, s, half) == Some(End::Foot) && !face.side.is_lifted();
+        if !passes {
+            let hold = self.at_node(node, x, face.index);
+            found.holds.extend(hold.map(|h| h.clear_of_edge(half)));
+        }
     }
 
     /// Whether a place on the face, at `s` (m) along it, belongs to it, or lies at most `beyond` (m) off its ends.
     fn is_on_face(&self, b: &Boundary, x: [f64; 2], s: f64, beyond: f64) -> bool {
-        let bottom = if b.free_below <= 0.0 && self.is_buried(x, -self.tolerance) {
-            f64::NEG_INFINITY
-        } else {
-            b.free_below.min(0.0)
-        };
+        let goes_on = b.height().is_infinite() || b.free_below <= 0.0 && self.is_buried(x, -self.tolerance);
+        let bottom = if goes_on { f64::NEG_INFINITY } else { 0.0 };
         let reach = beyond + self.tolerance;
         (bottom - reach..=b.height() + reach).contains(&s)
     }
@@ -143,16 +209,10 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The nodes beside a place on a line of the grid, the first of them on the side that `toward` points away from, and their
-    /// shares; `node` lies on a line beside it or on the same.
-    fn between(
-        &self,
-        node: usize,
-        x: [f64; 2],
-        at: Vector2<f64>,
-        axis: usize,
-        toward: f64,
-    ) -> Option<([usize; 2], [f64; 2])> {
+    /// The nodes beside a place on a line of the grid that crosses a face, the one behind first, and their shares; `node` at `x` lies
+    /// on a line beside it or on the same.
+    fn between(&self, node: usize, x: [f64; 2], at: Vector2<f64>, face: &Face) -> Option<([usize; 2], [f64; 2])> {
+        let Face { axis, toward, .. } = *face;
         let cells = (at - Vector2::from(x)) / self.grid.spacing;
         let mut place = self.grid.place(node);
         place[1 - axis] += cells[1 - axis].round() as i64;
@@ -169,37 +229,36 @@ impl<'a> Search<'a> {
         Some(([first, self.grid.find(place)?], [1.0 - share, share]))
     }
 
-    /// Where the face crosses the line of the grid from the node to the next one before the face. Where it passes through the node
-    /// only if it is that of a plate, or near an end of it.
-    fn crossing(&self, node: usize, x: [f64; 2], index: usize, face: &Boundary, plate: bool) -> Option<Site> {
-        let axis = face.normal.iamax();
-        let (d, _) = face.face_coordinates(x);
-        let (step, toward) = (self.step(face), face.normal[axis].signum());
-        let near = NEAR * step;
-        if d > near || d + step <= near {
+    /// The crossing at `at` of a face with the line of the grid from the node, which is `d` (m) before the face or behind it, to the
+    /// next one before it. Where the face passes through the node only if it is that of a plate, or near an end of it.
+    fn crossing(&self, node: usize, x: [f64; 2], face: &Face, at: Vector2<f64>, d: f64) -> Option<Site> {
+        let (side, half) = (&face.side, 0.5 * face.line);
+        let (_, along) = side.face_coordinates(at.into());
+        let end = self.end(side, along, half);
+        let off = face.plate || end.is_some() || d < -face.near();
+        if !off || !self.is_on_face(side, at.into(), along, if end.is_some() { half } else { 0.0 }) {
             return None;
         }
-        let mut at = Vector2::from(x);
-        at[axis] += toward * (-d / step) * self.grid.spacing;
-        let (_, along) = face.face_coordinates(at.into());
-        let line = self.grid.spacing / face.tangent[1 - axis].abs();
-        let end = self.end(face, along, 0.5 * line);
-        let off = plate || end.is_some() || d < -near;
-        let own = self.is_on_face(face, at.into(), along, if end.is_some() { 0.5 * line } else { 0.0 });
-        let plane = face.height().is_infinite();
-        if !off || !own || (plane && self.is_of_another(at.into(), index)) {
-            return None;
-        }
-        let (nodes, shares) = self.between(node, x, at, axis, toward)?;
-        let site = Site::new(nodes, shares, index, face, (along, at.into()), plate);
+        let (nodes, shares) = self.between(node, x, at, face)?;
+        let foot = self.boundaries[face.index].foot();
+        let site = Site::new(nodes, shares, face.index, side, (along, at.into(), foot.into()), face.plate);
         let Some(end) = end else { return Some(site) };
-        let beyond = at + face.tangent * if end == End::Foot { -line } else { line };
+        let beyond = at + side.tangent * if end == End::Foot { -face.line } else { face.line };
         // Nothing passes where there is no line between the end of the wall and what it stands on.
         let open = end == End::Crest || !self.is_buried(beyond.into(), self.tolerance);
-        match self.between(node, x, beyond, axis, toward).filter(|_| open) {
-            Some(next) => Some(site.beside(end, next, 0.5 * line)),
+        match self.between(node, x, beyond, face).filter(|_| open) {
+            Some(next) => Some(site.beside(end, next, half)),
             None => Some(site),
         }
+    }
+}
+
+impl Face {
+    /// Where the face crosses the line of the grid through `x`, which is `d` (m) before it.
+    fn crossing_point(&self, x: [f64; 2], d: f64, spacing: f64) -> Vector2<f64> {
+        let mut at = Vector2::from(x);
+        at[self.axis] += self.toward * (-d / self.step) * spacing;
+        at
     }
 }
 
@@ -214,18 +273,17 @@ impl Boundary {
         self.released && matches!(self.opening, Some(Opening::Lift { .. }))
     }
 
-    /// Whether it is a wall so thin for cells of this size (m) that material on one side reaches the nodes of the other.
-    fn is_plate(&self, spacing: f64) -> bool {
-        matches!(self.solid, Solid::Slab { thickness, face_only: false, .. } if thickness < PLATE * spacing)
+    /// Whether it is a gate, of which only the face acts.
+    fn is_gate(&self) -> bool {
+        matches!(self.solid, Solid::Slab { face_only: true, .. })
     }
 
     /// The back of a wall, as a face.
     fn back(&self) -> Self {
-        let mut back = self.clone();
+        let mut back = Self { normal: -self.normal, ..self.clone() };
         if let Solid::Slab { foot, thickness, .. } = &mut back.solid {
             *foot -= self.normal * *thickness;
         }
-        back.normal = -self.normal;
         back
     }
 }

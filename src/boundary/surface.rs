@@ -65,13 +65,14 @@ pub struct SiteNode {
 }
 
 impl Site {
-    /// A crossing with `face`, between `nodes` with these shares; where it lies on the face (m along it, position).
+    /// A crossing with `face`, between `nodes` with these shares; where it lies (m along the face, position), and the foot of the
+    /// boundary.
     pub(super) fn new(
         nodes: [usize; 2],
         shares: [f64; 2],
         boundary: usize,
         face: &Boundary,
-        (along, x): (f64, [f64; 2]),
+        (along, x, foot): (f64, [f64; 2], [f64; 2]),
         plate: bool,
     ) -> Self {
         let [a, b] = nodes.map(|n| n as u32);
@@ -84,7 +85,7 @@ impl Site {
             along,
             end: None,
             x,
-            arm: minus(x, face.foot().into()),
+            arm: minus(x, foot),
             friction: face.friction.coefficient(),
             plate,
             free: 0.0,

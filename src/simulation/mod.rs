@@ -62,6 +62,8 @@ pub struct Simulation {
     pools: Vec<Pool>,
     coupling: Coupling,
     surface: Surface,
+    /// Whether a field was sorted anew, or its boundaries have changed, since the open nodes were found.
+    stale: bool,
     implicit: Vec<ImplicitBody>,
     speeds: Vec<f64>,
 
@@ -113,6 +115,7 @@ impl Simulation {
             ledger: Ledger::new(boundaries.len(), scene.contacts.len()),
             coupling: Coupling::new(&scene.contacts, &fields),
             surface: Surface::default(),
+            stale: true,
             implicit: implicit::bodies(&fields),
             bodies,
             boundaries,
@@ -140,7 +143,7 @@ impl Simulation {
         self.time_step = self.next_time_step();
         let dt = self.time_step.dt;
         let stages = self.numerics.scheme.stages();
-        if self.coupling.stale {
+        if std::mem::take(&mut self.stale) {
             self.find_open();
         }
         if self.in_one_sweep() {
@@ -318,7 +321,7 @@ impl Simulation {
     fn sort(&mut self, field: usize) {
         let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
         self.fields[field].sort(&rules, &self.boundaries, self.numerics.boundary_contact);
-        self.coupling.stale = true;
+        self.stale = true;
         if let Some(body) = self.implicit.iter_mut().find(|b| b.field == field) {
             body.rebuild(field, &self.fields[field], self.numerics.shape);
         }
@@ -331,7 +334,7 @@ impl Simulation {
     fn find_holds(&mut self) {
         let contact = self.numerics.boundary_contact;
         self.fields.iter_mut().for_each(|f| f.find_holds(&self.boundaries, contact));
-        self.coupling.stale = true;
+        self.stale = true;
     }
 
     fn book_departure(&mut self, departed: Departed) {

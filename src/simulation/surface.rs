@@ -6,11 +6,11 @@
 //! Elsewhere: block Gauss-Seidel on the connected components of the constraint graph.
 
 use super::VelocityField;
-use crate::band::Band;
+use crate::band::with_before;
 use crate::body::Block;
+use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Tally};
 use crate::boundary::surface::{Site, SiteNode};
-use crate::boundary::{Boundary, Solid};
 use crate::momentum;
 use crate::space::{dot, mean, minus};
 use std::ops::Range;
@@ -61,12 +61,6 @@ pub(super) struct Surface {
     near: Vec<NearPlate>,
     /// What the crossings with each boundary did in the last step, field by field.
     tallies: Vec<Vec<Tally>>,
-}
-
-/// A band and the one before it.
-fn with_before(bands: &mut [Band], k: usize) -> (Option<&mut Band>, &mut Band) {
-    let (before, rest) = bands.split_at_mut(k);
-    (before.last_mut(), &mut rest[0])
 }
 
 impl Surface {
@@ -162,7 +156,7 @@ impl Surface {
             for site in group.sites.clone().filter(|&s| self.sites[s].plate) {
                 let field = self.nodes[group.nodes.start].field;
                 // Points move by no more than a cell until the next sort.
-                let reach = 3.0 * spacing + thickness(&boundaries[self.sites[site].boundary as usize]);
+                let reach = 3.0 * spacing + boundaries[self.sites[site].boundary as usize].thickness();
                 for (band, b) in fields[field].bands.iter().enumerate() {
                     for (body, points) in b.points.iter().enumerate() {
                         for (block, (points, n)) in points.blocks().enumerate() {
@@ -183,7 +177,7 @@ impl Surface {
         for at in near.iter() {
             let field = &fields[at.field];
             let site = &mut sites[at.site];
-            let half = 0.5 * thickness(&boundaries[site.boundary as usize]);
+            let half = 0.5 * boundaries[site.boundary as usize].thickness();
             let [nx, ny] = site.normal;
             let size = 0.5 * field.bodies[at.body].point_spacing * (nx.abs() + ny.abs());
             let Some((block, n)) = field.bands[at.band].points[at.body].blocks().nth(at.block) else { continue };
@@ -238,7 +232,8 @@ impl Surface {
             let (places, sites) = (&nodes[group.nodes.clone()], &sites[group.sites.clone()]);
             let states = &mut states[group.nodes.clone()];
             for (place, state) in places.iter().zip(states.iter_mut()) {
-                state.v = fields[place.field].bands[place.band].work.strain_velocity[place.node];
+                let work = &fields[place.field].bands[place.band].work;
+                (state.mass, state.v) = (work.mass[place.node], work.strain_velocity[place.node]);
             }
             for _ in 0..if sites.len() > 1 { 4 } else { 1 } {
                 for site in sites {
@@ -318,13 +313,6 @@ fn book(
             momentum::close(before.as_deref_mut(), band, place.node, place.index, state.v);
         }
         momentum::set_strain_velocity(before, band, place.node, state.v);
-    }
-}
-
-fn thickness(b: &Boundary) -> f64 {
-    match b.solid {
-        Solid::HalfSpace { .. } => 0.0,
-        Solid::Slab { thickness, .. } => thickness,
     }
 }
 

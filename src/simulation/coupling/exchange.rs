@@ -1,7 +1,7 @@
 //! The impulses at shared nodes, with boundaries and contact together.
 
 use super::{ContactPoint, Coupling, SharedSide, Solved, VelocityField};
-use crate::band::Band;
+use crate::band::with_before;
 use crate::boundary::{Boundary, nodes};
 use crate::contact::Vector;
 use crate::contact::node;
@@ -13,12 +13,6 @@ use crate::momentum;
 use crate::shape::ShapeFunction;
 use crate::simulation::implicit::{ImplicitBody, PASSES, SETTLED};
 use crate::space::{plus, scaled};
-
-/// A band and the one before it.
-fn with_before(bands: &mut [Band], k: usize) -> (Option<&mut Band>, &mut Band) {
-    let (before, rest) = bands.split_at_mut(k);
-    (before.last_mut(), &mut rest[0])
-}
 
 impl Coupling {
     /// Closes the momentum balance of all shared nodes: finds where bodies touch, and the impulses of contact and boundaries.

@@ -97,15 +97,13 @@ pub(super) struct Coupling {
     solved: Vec<Solved>,
     holds: Vec<Hold>,
     points: Vec<ContactPoint>,
-    /// Whether a field was sorted anew or its boundaries have changed.
-    pub stale: bool,
 }
 
 impl Coupling {
     /// Contacts by `rules` between fields that each hold one body.
     pub fn new(rules: &[ContactRule], fields: &[VelocityField]) -> Self {
         let interfaces = rules.iter().enumerate().map(|(k, rule)| Interface::new(k, *rule, fields)).collect();
-        Self { interfaces, stale: true, ..Self::default() }
+        Self { interfaces, ..Self::default() }
     }
 
     /// Whether there is none.
@@ -135,7 +133,6 @@ impl Coupling {
 
     /// Follows a new layout of the fields, and tells their bands which nodes to leave open: those that several fields reach.
     pub fn list(&mut self, fields: &mut [VelocityField]) {
-        self.stale = false;
         self.solved.clear();
         self.pending.clear();
         self.touches.clear();
