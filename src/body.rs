@@ -216,6 +216,11 @@ impl Points {
         self.blocks.get(number)
     }
 
+    /// Number of real points in a block.
+    pub fn points_in(&self, number: usize) -> usize {
+        self.len.saturating_sub(number * LANES).min(LANES)
+    }
+
     /// The blocks with the number of real points in each.
     #[inline(always)]
     pub fn blocks(&self) -> impl Iterator<Item = (&Block, usize)> {

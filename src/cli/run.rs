@@ -84,7 +84,12 @@ fn report(summary: &Summary, directory: &Path) {
             b.static_layer3_n,
             b.static_height_of_action_m
         );
-        say!("  run-up: {:.3} m; over the barrier: {:.4} kg", b.run_up_m, b.overtopped_kg);
+        say!(
+            "  run-up: {:.3} m; over the barrier: {:.4} kg; past it: {:.4} kg",
+            b.run_up_m,
+            b.overtopped_kg,
+            b.passed_kg
+        );
     }
     if let Some(d) = &summary.deposit {
         say!(

@@ -9,7 +9,12 @@ pub(super) const MAX_VOLUME_RATIO: f64 = 1.5;
 /// The points of everything that flows: of all bodies but those that are `barriers`, by index, and those without weight, which are
 /// structures, with the index of their body.
 pub fn flowing(simulation: &Simulation, barriers: &[usize]) -> impl Iterator<Item = (usize, Particle)> {
-    simulation.particles().filter(move |(body, _)| !barriers.contains(body) && !simulation.bodies()[*body].weightless)
+    simulation.particles().filter(move |(body, _)| !barriers.contains(body) && may_flow(simulation, *body))
+}
+
+/// Whether a body, by its index, may flow: one without weight is a structure.
+pub(super) fn may_flow(simulation: &Simulation, body: usize) -> bool {
+    !simulation.bodies()[body].weightless
 }
 
 /// The blocks of points of everything that flows (see [`flowing`]), in the same order: index of the body, block, number of real
@@ -18,7 +23,7 @@ pub(super) fn flowing_blocks<'a>(
     simulation: &'a Simulation,
     barriers: &'a [usize],
 ) -> impl Iterator<Item = (usize, &'a Block, usize)> {
-    simulation.blocks().filter(move |(body, ..)| !barriers.contains(body) && !simulation.bodies()[*body].weightless)
+    simulation.blocks().filter(move |(body, ..)| !barriers.contains(body) && may_flow(simulation, *body))
 }
 
 /// Mass, momentum and kinetic energy of some bodies.

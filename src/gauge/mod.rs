@@ -10,7 +10,8 @@
 //! - [`FrontGauge`]: the front of the flow, its velocity and depth.
 //! - [`StationGauge`]: depth and velocity at a place.
 //! - [`WindowGauge`]: speed in a rectangle.
-//! - [`wall_state`]: run-up and overtopping.
+//! - [`wall_state`]: run-up, and what is behind.
+//! - [`PassageGauge`]: what has passed over, under and through a wall.
 //! - [`velocity_field`]: velocity and stress, cell by cell.
 //! - [`flow`]: what of all this flows.
 //!
@@ -23,6 +24,7 @@ mod field;
 pub mod flow;
 mod front;
 pub(crate) mod layers;
+mod passage;
 pub mod penetration;
 mod reaction;
 mod station;
@@ -37,6 +39,7 @@ pub use barrier::{BarrierGauge, ForceSample, Peak, contact_impulse};
 pub use base::{BaseGauge, BaseSample};
 pub use field::{FieldCell, velocity_field};
 pub use front::{FRONT_LENGTH, FRONT_SHARE, Front, FrontGauge};
+pub use passage::{Passage, PassageGauge};
 pub use reaction::{Reaction, ReactionGauge};
 pub use station::{StationGauge, StationSample};
 pub use structure::{StructureGauge, StructureSample};

@@ -1,4 +1,4 @@
-//! Material at a wall: how high it has run up, how much of it went over.
+//! Material at a wall: how high it has run up, how much of it is behind.
 
 use super::beside::beside;
 use crate::simulation::Simulation;
@@ -8,20 +8,19 @@ use crate::simulation::Simulation;
 pub struct WallState {
     /// Highest point within 1.5 cells of the face, m above the foot.
     pub run_up: f64,
-    /// Mass behind the face, there or already out of the domain, kg: it has gone over.
-    pub overtopped: f64,
+    /// Mass that is more than a cell behind the face now, kg.
+    pub behind: f64,
 }
 
-/// Run-up and overtopping at a wall.
+/// What is at a wall now.
 pub fn wall_state(simulation: &Simulation, boundary: usize) -> WallState {
     let b = &simulation.boundaries()[boundary];
     let h = simulation.spacing();
-    let gone = simulation.ledger().departed_behind[boundary];
-    let mut state = WallState { overtopped: gone, ..WallState::default() };
+    let mut state = WallState::default();
     beside(b, 1.5 * h, simulation.blocks()).for_each(|near| {
         let (d, s) = b.face_coordinates(near.x());
         if d < -h {
-            state.overtopped += simulation.bodies()[near.body].point_mass;
+            state.behind += simulation.bodies()[near.body].point_mass;
         } else {
             state.run_up = state.run_up.max(s);
         }

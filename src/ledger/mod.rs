@@ -37,8 +37,6 @@ pub struct Ledger {
     pub departed_energy: f64,
     /// Mass that left the domain, kg.
     pub departed_mass: f64,
-    /// The part of it that lay behind the face of each boundary, kg: what went over a barrier and on.
-    pub departed_behind: Vec<f64>,
     /// Sum of the magnitudes of all impulses, N s: the scale on which closure is judged.
     pub impulse_scale: f64,
 }
@@ -48,7 +46,6 @@ impl Ledger {
     pub fn new(boundaries: usize, contacts: usize) -> Self {
         Self {
             boundaries: vec![Tally::default(); boundaries],
-            departed_behind: vec![0.0; boundaries],
             contacts: vec![ContactTally::default(); contacts],
             ..Self::default()
         }

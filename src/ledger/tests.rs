@@ -21,7 +21,6 @@ fn ledger() -> Ledger {
         departed_momentum: [2f64.powi(24), -2f64.powi(25)],
         departed_energy: 2f64.powi(26),
         departed_mass: 9e9,
-        departed_behind: vec![9e9; 2],
         impulse_scale: 9e9,
     }
 }
@@ -31,7 +30,6 @@ fn a_new_ledger_is_empty_and_has_a_line_for_each_boundary() {
     let ledger = Ledger::new(3, 2);
     assert_eq!(ledger.boundaries, [Tally::default(); 3]);
     assert_eq!(ledger.contacts, [ContactTally::default(); 2]);
-    assert_eq!(ledger.departed_behind, [0.0; 3]);
     assert_eq!(ledger.impulse(), [0.0; 2]);
 }
 

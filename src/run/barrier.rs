@@ -53,8 +53,12 @@ pub struct BarrierResults {
     pub impulse_tangential_n_s: f64,
     /// Highest material at the barrier at any time, m above its foot.
     pub run_up_m: f64,
-    /// Mass that went over the barrier, kg.
+    /// Mass that went over the barrier's crest, or at most half a cell below it, kg; of a barrier that is a body, all that passed.
     pub overtopped_kg: f64,
+    /// Mass that went under the barrier, or at most half a cell above its lower edge, kg.
+    pub passed_under_kg: f64,
+    /// All mass that passed the barrier, kg; what it is more than the other two went through it.
+    pub passed_kg: f64,
 }
 
 /// Of the history of a barrier, `None` without a sample.
@@ -87,7 +91,9 @@ pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow]) -> Option<Ba
         impulse_normal_n_s: gauge.total_impulse()[0],
         impulse_tangential_n_s: gauge.total_impulse()[1],
         run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
-        overtopped_kg: last.overtopped,
+        overtopped_kg: last.passage.over,
+        passed_under_kg: last.passage.under,
+        passed_kg: last.passage.past,
     })
 }
 
@@ -96,6 +102,15 @@ impl BarrierResults {
     pub(super) fn warn(&self, name: &str, warn: &mut impl FnMut(String)) {
         if self.overtopped_kg > 0.0 {
             warn(format!("{:.4} kg went over {name}", self.overtopped_kg));
+        }
+        if self.passed_under_kg > 0.0 {
+            warn(format!("{:.4} kg went under {name}", self.passed_under_kg));
+        }
+        let through = self.passed_kg - self.overtopped_kg - self.passed_under_kg;
+        if through > 1e-9 * self.passed_kg {
+            warn(format!(
+                "{through:.4} kg went through {name}, between its foot and its crest: it does not hold the flow, and its force is too low"
+            ));
         }
         if self.arrival_s.is_none() {
             warn(format!("the flow did not reach {name}"));

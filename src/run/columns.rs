@@ -61,7 +61,9 @@ const SAMPLE_FRONT: &[Column<HistoryRow>] = columns![HistoryRow;
 
 const SAMPLE_CREST: &[Column<HistoryRow>] = columns![HistoryRow;
     "run_up_m", "m", "highest material within 1.5 cells of the barrier's face, above its foot", |r, _| r.run_up;
-    "overtopped_kg", "kg", "mass behind the barrier's face, there or already out of the domain", |r, _| r.overtopped;
+    "overtopped_kg", "kg", "mass that went over the barrier's crest since the release", |r, _| r.passage.over;
+    "passed_under_kg", "kg", "mass that went under the barrier since the release", |r, _| r.passage.under;
+    "passed_kg", "kg", "all mass that has passed the barrier since the release, on whatever way", |r, _| r.passage.past;
 ];
 
 const SAMPLE_WINDOW: &[Column<HistoryRow>] = columns![HistoryRow;
@@ -242,7 +244,7 @@ pub(super) static STRUCTURE: TableKind<(f64, StructureSample)> = TableKind {
             "gap_cells", "cells", "widest gap between neighbouring points beyond what stretch explains; from 0.25 on the barrier is torn", |r, _| r.1.bend.gap;
             "gap_height_m", "m", "its height above the foot at the start", |r, _| r.1.bend.gap_at;
             "run_up_m", "m", "highest material within 1.5 cells of the face, above the foot", |r, _| r.1.survey.run_up;
-            "overtopped_kg", "kg", "mass behind the barrier, there or already out of the domain", |r, _| r.1.survey.overtopped;
+            "behind_kg", "kg", "mass behind the barrier, there or already out of the domain", |r, _| r.1.survey.behind;
         ],
     )],
 };

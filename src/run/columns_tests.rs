@@ -1,5 +1,6 @@
 use super::super::table::Names;
 use super::*;
+use crate::gauge::Passage;
 
 /// What a name ends in for a unit.
 fn ending(unit: &str) -> Option<&'static str> {
@@ -65,7 +66,8 @@ fn a_further_barrier_has_the_columns_of_its_forces() {
     let own = FURTHER.header(&Names::default());
     assert!(own.iter().all(|name| all.contains(name)) && own.contains(&"run_up_m".to_string()), "{own:?}");
     let (mut values, mut of_all) = (Vec::new(), Vec::new());
-    let row = HistoryRow { time: 1.0, normal: 2.0, layers: [3.0, 4.0, 5.0], overtopped: 6.0, ..HistoryRow::default() };
+    let passage = Passage { over: 6.0, under: 7.0, past: 8.0 };
+    let row = HistoryRow { time: 1.0, normal: 2.0, layers: [3.0, 4.0, 5.0], passage, ..HistoryRow::default() };
     FURTHER.values(&Names::default(), &row, &mut values);
     HISTORY.values(&Names::default(), &row, &mut of_all);
     for (name, value) in own.iter().zip(&values) {

@@ -58,15 +58,14 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Depo
     let sim = experiment.simulation();
     let base = &sim.boundaries()[experiment.base()?];
     let Friction::Coulomb(mu) = base.friction else { return None };
-    let last = records.history.last()?;
+    records.history.last()?;
     let g = sim.gravity();
     let along = g[0] * base.tangent.x + g[1] * base.tangent.y;
     let across = -(g[0] * base.normal.x + g[1] * base.normal.y);
     // What lies behind the barrier rests on the base, too, but does not push.
     let structures = experiment.structures();
-    let barrier = experiment.barrier()?.boundary();
-    let departed = barrier.map_or(sim.ledger().departed_mass, |b| sim.ledger().departed_behind[b]);
-    let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - (last.overtopped - departed);
+    let behind = experiment.barriers().first()?.behind(sim);
+    let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - behind;
     let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base.normal);
     let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base.friction);
     let weight = mass * along;

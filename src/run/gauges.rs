@@ -5,8 +5,8 @@ use super::scene;
 use crate::case::{Case, file_name};
 use crate::gauge::structure::ProfilePoint;
 use crate::gauge::{
-    BarrierGauge, BaseGauge, ForceSample, FrontGauge, StationGauge, StructureGauge, StructureSample, WindowGauge,
-    layers, penetration, wall_state,
+    BarrierGauge, BaseGauge, ForceSample, FrontGauge, Passage, PassageGauge, StationGauge, StructureGauge,
+    StructureSample, WindowGauge, layers, penetration, wall_state,
 };
 use crate::output::OutputError;
 use crate::simulation::Simulation;
@@ -17,6 +17,7 @@ pub struct Barrier {
     name: String,
     force: BarrierGauge,
     structure: Option<StructureGauge>,
+    passage: Option<PassageGauge>,
     peak: PeakProfile,
 }
 
@@ -29,8 +30,8 @@ pub struct BarrierSample {
     pub layers: [f64; 3],
     /// Highest material beside it, m above its foot.
     pub run_up: f64,
-    /// Mass behind it, kg.
-    pub overtopped: f64,
+    /// What has passed it since the release.
+    pub passage: Passage,
     /// How it takes it, if it is a body.
     pub structure: Option<StructureSample>,
 }
@@ -48,13 +49,14 @@ pub struct PeakProfile {
 
 impl Barrier {
     /// A gauge on the boundary or the body of this name; `None` if there is neither.
-    fn new(case: &Case, simulation: &Simulation, name: &str) -> Option<Self> {
+    fn new(case: &Case, simulation: &Simulation, name: &str, structures: &[usize]) -> Option<Self> {
         let structure = structure(case, simulation, name);
         let force = match &structure {
             Some(s) => BarrierGauge::on_body(simulation, s.body(), s.face().clone()),
             None => BarrierGauge::new(simulation, simulation.boundary_index(name)?),
         };
-        Some(Self { name: name.into(), force, structure, peak: PeakProfile::default() })
+        let passage = force.boundary().map(|b| PassageGauge::new(simulation, b, structures));
+        Some(Self { name: name.into(), force, structure, passage, peak: PeakProfile::default() })
     }
 
     /// Its name in the case.
@@ -82,6 +84,9 @@ impl Barrier {
         if let Some(structure) = &mut self.structure {
             structure.open(simulation);
         }
+        if let Some(passage) = &mut self.passage {
+            passage.open(simulation);
+        }
     }
 
     /// Reads the last step.
@@ -89,6 +94,9 @@ impl Barrier {
         self.force.after_step(simulation);
         if let Some(structure) = &mut self.structure {
             structure.after_step(simulation);
+        }
+        if let Some(passage) = &mut self.passage {
+            passage.after_step(simulation);
         }
     }
 
@@ -98,18 +106,30 @@ impl Barrier {
         let mut sample = BarrierSample { force, ..BarrierSample::default() };
         if let Some(boundary) = self.force.boundary() {
             sample.layers = layers::normal_force(simulation, boundary);
-            let wall = wall_state(simulation, boundary);
-            (sample.run_up, sample.overtopped) = (wall.run_up, wall.overtopped);
+            sample.run_up = wall_state(simulation, boundary).run_up;
+        }
+        if let Some(passage) = &mut self.passage {
+            sample.passage = passage.sample(simulation);
         }
         if let Some(structure) = &mut self.structure {
             let s = structure.sample(simulation);
-            (sample.layers, sample.run_up, sample.overtopped) = (s.survey.layers, s.survey.run_up, s.survey.overtopped);
+            (sample.layers, sample.run_up) = (s.survey.layers, s.survey.run_up);
+            sample.passage = structure.passage(&s.survey);
             sample.structure = Some(s);
             if force.normal > self.peak.force {
                 self.peak = PeakProfile { force: force.normal, time: simulation.time(), points: structure.profile() };
             }
         }
         sample
+    }
+
+    /// Mass that is behind it now, kg.
+    pub(super) fn behind(&self, simulation: &Simulation) -> f64 {
+        match (&self.structure, self.force.boundary()) {
+            (Some(structure), _) => structure.behind(simulation),
+            (_, Some(boundary)) => wall_state(simulation, boundary).behind,
+            _ => 0.0,
+        }
     }
 
     /// Mean pressure on it since the last call: (height above the foot in m, pressure in Pa).
@@ -127,7 +147,7 @@ impl BarrierSample {
         row.normal_max = self.force.normal_max;
         row.layers = self.layers;
         row.run_up = self.run_up;
-        row.overtopped = self.overtopped;
+        row.passage = self.passage;
     }
 }
 
@@ -162,7 +182,10 @@ impl Gauges {
     /// Those of a case that has passed validation.
     pub fn new(case: &Case, simulation: &Simulation) -> Self {
         let gauges = &case.gauges;
-        let barriers: Vec<_> = gauges.barrier_names().filter_map(|name| Barrier::new(case, simulation, name)).collect();
+        let structures: Vec<usize> =
+            gauges.barrier_names().filter_map(|name| Some(structure(case, simulation, name)?.body())).collect();
+        let barriers: Vec<_> =
+            gauges.barrier_names().filter_map(|name| Barrier::new(case, simulation, name, &structures)).collect();
         let base = |name: &str| {
             let gauge = BaseGauge::new(simulation.boundary_index(name)?);
             Some(Named { name: name.into(), gauge })
@@ -171,7 +194,7 @@ impl Gauges {
         let windows =
             gauges.windows.iter().map(|w| Named { name: w.name.clone(), gauge: WindowGauge::new(w.x_m, w.y_m) });
         Self {
-            structures: barriers.iter().filter_map(|b| b.structure.as_ref()).map(StructureGauge::body).collect(),
+            structures,
             barriers,
             bases: gauges.base_names().filter_map(base).collect(),
             stations: gauges.stations_m.iter().copied().map(StationGauge::new).collect(),

@@ -104,7 +104,7 @@ fn a_further_barrier_changes_nothing_of_the_first_and_both_take_what_the_ledger_
     assert!(alone.history == both.history && alone.energy == both.energy && alone.momentum == both.momentum);
     assert_eq!(both.further.len(), 1);
     let forces =
-        |r: &HistoryRow| (r.time, r.normal, r.tangential, r.moment, r.normal_max, r.layers, r.run_up, r.overtopped);
+        |r: &HistoryRow| (r.time, r.normal, r.tangential, r.moment, r.normal_max, r.layers, r.run_up, r.passage);
     let own: Vec<_> = both.further[0].history.iter().map(forces).collect();
     assert!(own == other.history.iter().map(forces).collect::<Vec<_>>());
     assert!(own.iter().any(|f| f.1 > 10.0) && both.history.iter().any(|r| r.normal > 10.0), "both are struck");

@@ -3,7 +3,7 @@
 //! Elsewhere: history output, an observer.
 
 use crate::gauge::structure::ProfilePoint;
-use crate::gauge::{BaseSample, FieldCell, Front, StationSample, StructureSample, WindowSample};
+use crate::gauge::{BaseSample, FieldCell, Front, Passage, StationSample, StructureSample, WindowSample};
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::output::OutputError;
 use crate::simulation::{ContactPoint, Simulation};
@@ -29,8 +29,8 @@ pub struct HistoryRow {
     pub front: Front,
     /// Highest material at the barrier, m above its foot.
     pub run_up: f64,
-    /// Mass behind the barrier's face, kg.
-    pub overtopped: f64,
+    /// What has passed the barrier since the release.
+    pub passage: Passage,
     /// Speeds in the window.
     pub window: WindowSample,
     /// Kinetic energy, J.

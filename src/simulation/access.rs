@@ -10,6 +10,7 @@ use crate::boundary::nodes::{Hold, Tally};
 use crate::boundary::surface::Site;
 use crate::constitutive::Law;
 use crate::contact::rule::{ContactRule, ContactTally};
+use crate::lanes::LANES;
 use crate::ledger::{EnergyBalance, Ledger, Stock};
 use crate::space::{dot, plus, scaled};
 use crate::timestep::TimeStep;
@@ -122,6 +123,16 @@ impl Simulation {
     /// points.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, &Block, usize)> {
         self.fields.iter().flat_map(VelocityField::blocks)
+    }
+
+    /// The same with the numbers of the points within their body: body index, block, numbers, number of real points.
+    pub fn numbered_blocks(&self) -> impl Iterator<Item = (usize, &Block, &[u32; LANES], usize)> {
+        self.fields.iter().flat_map(VelocityField::numbered_blocks)
+    }
+
+    /// Largest velocity component of any point, m/s.
+    pub fn largest_speed(&self) -> f64 {
+        self.speeds.iter().copied().fold(0.0, f64::max)
     }
 
     /// The points of one body, by its index, in a fixed order that changes with sorting.

@@ -7,6 +7,7 @@ use crate::boundary::BoundaryContact;
 use crate::boundary::search::{self, Found};
 use crate::boundary::surface::Site;
 use crate::grid::ActiveGrid;
+use crate::lanes::LANES;
 use crate::layout::{Departed, SortRules, Sorter};
 use crate::momentum::{self, BodyForces};
 
@@ -83,9 +84,16 @@ impl VelocityField {
 
     /// The blocks of points in the order of [`Self::particles`]: index of the body in the simulation, block, number of real points.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, &Block, usize)> {
+        self.numbered_blocks().map(|(body, block, _, n)| (body, block, n))
+    }
+
+    /// The same with the numbers of the points within their body.
+    pub fn numbered_blocks(&self) -> impl Iterator<Item = (usize, &Block, &[u32; LANES], usize)> {
         self.bands.iter().flat_map(|band| {
             let bodies = self.members.iter().zip(&band.points);
-            bodies.flat_map(|(&body, points)| points.blocks().map(move |(block, n)| (body, block, n)))
+            bodies.flat_map(|(&body, points)| {
+                points.blocks().zip(points.ids()).map(move |((block, n), ids)| (body, block, ids, n))
+            })
         })
     }
 }

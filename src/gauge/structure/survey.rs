@@ -17,7 +17,7 @@ pub struct Survey {
     /// Highest point within 1.5 cells of the face, m.
     pub run_up: f64,
     /// Mass behind the barrier, there or already out of the domain, kg.
-    pub overtopped: f64,
+    pub behind: f64,
     /// Deepest that a point's domain lies inside the barrier, m.
     pub penetration: f64,
 }
@@ -33,7 +33,7 @@ impl StructureGauge {
                 (*low, *high) = (low.min(x - reach), high.max(x + reach));
             }
         }
-        let mut found = Survey { overtopped: simulation.ledger().departed_mass, ..Survey::default() };
+        let mut found = Survey { behind: simulation.ledger().departed_mass, ..Survey::default() };
         let mut near = Vec::new();
         let [least, most] = bounds[0];
         for point in beside(&self.face, most.max(least), flowing_blocks(simulation, &[self.body])) {
@@ -41,14 +41,14 @@ impl StructureGauge {
             let (d, s) = self.face.face_coordinates(x);
             let body = &simulation.bodies()[point.body];
             if d < bounds[0][0] {
-                found.overtopped += body.point_mass;
+                found.behind += body.point_mass;
             }
             let inside = d >= bounds[0][0] && d <= bounds[0][1] && s >= bounds[1][0] && s <= bounds[1][1];
             let Some(to) = inside.then(|| self.nearest(x)).flatten() else { continue };
             let out = Vector2::from(to.normal);
             found.penetration = found.penetration.max(0.5 * body.point_spacing - to.distance);
             if out.dot(&n) < -0.5 {
-                found.overtopped += body.point_mass;
+                found.behind += body.point_mass;
                 continue;
             }
             if to.distance <= 1.5 * h {

@@ -149,6 +149,6 @@ fn the_survey_sees_layers_run_up_and_what_went_over() {
     }
     let found = gauge.sample(&sim).survey;
     assert!(found.run_up > 0.1 && found.run_up < 0.13, "{found:?}");
-    assert!(found.penetration < 0.5 * H && found.overtopped == 0.0, "{found:?}");
+    assert!(found.penetration < 0.5 * H && found.behind == 0.0, "{found:?}");
     assert!(found.layers[0] > 0.0, "{found:?}");
 }

@@ -101,10 +101,7 @@ fn layers_carry_the_normal_stress_at_the_face() {
         let found = view.survey([grains([0.0; 2]), vec![]]);
         let area = 8.0 * SPACING * THICKNESS * 1.25;
         assert!((0..3).all(|k| near(found.layers[k], [1e3, 1.5e3, 2e3][k] * area)), "{view:?} {found:?}");
-        assert!(
-            near(found.run_up, 7.5 * SPACING) && found.overtopped == 0.0 && found.penetration <= 1e-12,
-            "{found:?}"
-        );
+        assert!(near(found.run_up, 7.5 * SPACING) && found.behind == 0.0 && found.penetration <= 1e-12, "{found:?}");
         // Half of it below the foot; and a little too far away.
         let found = view.survey([grains([0.0, -4.0 * SPACING]), vec![]]);
         assert!((0..3).all(|k| near(found.layers[k], [1e3, 1.5e3, 2e3][k] * 0.5 * area)), "{view:?} {found:?}");
@@ -137,15 +134,15 @@ fn run_up_overtopping_and_penetration_are_told_apart() {
         };
         // At the face and no farther than a cell and a half.
         let found = seen(&[[0.149, 0.31], [0.151, 0.42]], &[[0.05, 0.2]]);
-        assert!(near(found.run_up, 0.31) && found.overtopped == 0.0, "{view:?} {found:?}");
+        assert!(near(found.run_up, 0.31) && found.behind == 0.0, "{view:?} {found:?}");
         // On the crest: neither before nor behind.
         let found = seen(&[[-0.1, 0.56]], &[]);
-        assert!(near(found.run_up, 0.56) && found.overtopped == 0.0, "{view:?} {found:?}");
+        assert!(near(found.run_up, 0.56) && found.behind == 0.0, "{view:?} {found:?}");
         // High above it.
         assert_eq!(seen(&[[-0.1, 1.5]], &[[0.2, 2.0]]), Survey::default());
         // Behind it, near and far.
         let found = seen(&[[-0.33, 0.2], [-0.55, 0.3], [-0.4, 0.1], [0.5, 0.1]], &[[-3.0, 0.2]]);
-        assert!(found.run_up == 0.0 && found.overtopped == 5.0, "{view:?} {found:?}");
+        assert!(found.run_up == 0.0 && found.behind == 5.0, "{view:?} {found:?}");
         // A point reaches as far as half the distance to its neighbours.
         let found = seen(&[[0.01, 0.2]], &[[-0.02, 0.3]]);
         assert!(near(found.penetration, 0.0325) && near(found.run_up, 0.3), "{view:?} {found:?}");
@@ -166,7 +163,7 @@ fn what_has_left_the_domain_has_gone_over() {
     let mut gauge = view.gauge(&sim);
     run_until(&mut sim, 0.15).expect("it runs");
     assert!(near(sim.ledger().departed_mass, 2.0));
-    assert!(near(gauge.sample(&sim).survey.overtopped, 2.0));
+    assert!(near(gauge.sample(&sim).survey.behind, 2.0));
     // Without a step in between there are no forces.
     let sample = gauge.sample(&sim);
     assert_eq!((sample.contact, sample.clamp, sample.inertia), Default::default());
