@@ -111,7 +111,8 @@ impl Site {
         let b = &boundaries[self.boundary as usize];
         let closed = b.free_below <= 0.0 || self.along >= b.free_below;
         self.open = match self.end {
-            None => f64::from(u8::from(!closed)),
+            None | Some((End::Crest, _)) if !closed => 1.0,
+            None => 0.0,
             Some((End::Foot, half)) => (0.5 + (b.free_below - self.along) / (2.0 * half)).clamp(0.0, 1.0),
             Some((End::Crest, half)) => (0.5 + (self.along - b.height()) / (2.0 * half)).clamp(0.0, 1.0),
         };

@@ -46,6 +46,11 @@ impl<T> Suite<T> {
         if names.is_empty() {
             chosen.extend(self.all);
         }
+        // Hours of runs must not end at a folder that is missing.
+        if let Err(error) = std::fs::create_dir_all(out) {
+            tell!("error: cannot create {}: {error}; choose another --out", out.display());
+            return ExitCode::from(BAD_INPUT);
+        }
         let mut failed = Vec::new();
         for (k, item) in chosen.iter().enumerate() {
             let [name, title] = head(item);

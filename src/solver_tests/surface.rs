@@ -232,3 +232,25 @@ fn nothing_gets_through_a_plate_that_leans() {
         }
     }
 }
+
+#[test]
+fn a_gate_that_is_gone_holds_nothing() {
+    // A block rests before gates whose crest lies within it, at places between the nodes and on them; then they open.
+    for place in 0..8 {
+        for opening in [Opening::Vanish, Opening::Lift { speed: f64::INFINITY, opening: f64::INFINITY }] {
+            let (x, height) = (0.4 + 0.0125 * f64::from(place), 0.2 - 0.0125 * f64::from(place));
+            let brick = Brick::new([x - 0.4, 0.0], [4, 3], H);
+            let gate = Boundary::wall("gate", Vector2::new(x, 0.0), Vector2::y(), height, 0.4, Friction::Rough);
+            let base = Boundary::plane("base", Vector2::zeros(), Vector2::y(), Friction::Smooth);
+            let mut scene = scene(&brick, law(), DENSITY, brick.points(), vec![gate.gate(opening), base]);
+            scene.gravity = [3.0, -10.0];
+            let mut sim = stepped(Simulation::new(scene), 50);
+            assert!(sim.ledger().boundaries[0].impulse[0] < 0.0, "it holds: {place}");
+            sim.release_gates();
+            sim = stepped(sim, 1);
+            sim.open_ledger();
+            sim = stepped(sim, 50);
+            assert_eq!(sim.ledger().boundaries[0].impulse, [0.0; 2], "{place} {opening:?}");
+        }
+    }
+}
