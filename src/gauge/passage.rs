@@ -82,9 +82,8 @@ impl PassageGauge {
         }
     }
 
-    /// What has passed until now.
-    pub fn sample(&mut self, simulation: &Simulation) -> Passage {
-        self.look(simulation);
+    /// What has passed until the last look.
+    pub fn sample(&self, simulation: &Simulation) -> Passage {
         let mut counts = vec![[0u32; 3]; simulation.bodies().len()];
         for ((body, _), way) in &self.passed {
             match way {
@@ -136,13 +135,12 @@ impl PassageGauge {
         if d >= -h {
             self.passed.remove(&key);
             self.seen.insert(key, [0.0, crossed]);
-        } else if !self.passed.contains_key(&key) {
-            let way = match () {
+        } else {
+            self.passed.entry(key).or_insert(match () {
                 () if crossed > b.height() - END * h => Way::Over,
                 () if crossed < b.free_below.max(0.0) + END * h => Way::Under,
                 () => Way::Through,
-            };
-            self.passed.insert(key, way);
+            });
         }
     }
 }

@@ -88,8 +88,9 @@ fn structures_do_not_count() {
     let mut gauges = [vec![], vec![0], vec![1]].map(|structures: Vec<usize>| PassageGauge::new(&sim, 0, &structures));
     while sim.time() < 0.1 {
         sim.step().expect("a step");
+        gauges.iter_mut().for_each(|g| g.after_step(&sim));
     }
-    assert_eq!(gauges.each_mut().map(|g| g.sample(&sim).past), [2.0, 2.0, 0.0]);
+    assert_eq!(gauges.map(|g| g.sample(&sim).past), [2.0, 2.0, 0.0]);
 }
 
 impl Passage {

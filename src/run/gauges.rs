@@ -108,7 +108,7 @@ impl Barrier {
             sample.layers = layers::normal_force(simulation, boundary);
             sample.run_up = wall_state(simulation, boundary).run_up;
         }
-        if let Some(passage) = &mut self.passage {
+        if let Some(passage) = &self.passage {
             sample.passage = passage.sample(simulation);
         }
         if let Some(structure) = &mut self.structure {

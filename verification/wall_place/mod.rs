@@ -51,7 +51,7 @@ const SETTINGS: Figure = curves(
     "wall_place_plot",
     Curves {
         x: "offset_cells",
-        x_title: "place of the wall between two columns of nodes (cells)",
+        x_title: "place between two nodes (cells)",
         y_title: "force over closed form",
         curves: &[measured("force_over_exact", "")],
         panels: &[

@@ -20,7 +20,7 @@ pub(super) const FIGURE: Figure = curves(
     "wall_place_sides_plot",
     Curves {
         x: "offset_cells",
-        x_title: "place of the wall between two columns of nodes (cells)",
+        x_title: "place between two nodes (cells)",
         y_title: "force over closed form",
         curves: &[measured("force_over_exact", "")],
         panels: &[panel("fill behind the wall", &[("side", "back")])],
