@@ -8,7 +8,7 @@
 
 use crate::band::{Band, NodeSum, OpenNode};
 use crate::boundary::Boundary;
-use crate::boundary::nodes::{self, Hold, Tally};
+use crate::boundary::nodes::{self, Hold, Remapped, Tally};
 use crate::ledger::Distributed;
 use crate::space::{mean, minus, norm, plus, scaled};
 
@@ -35,6 +35,11 @@ pub fn distribute_holds(holds: &[Hold], boundaries: usize, bands: &mut [Band]) {
         band.tallies.resize(boundaries, Tally::default());
         rest = others;
     }
+}
+
+/// Internal force at an owned node of a band, N.
+pub fn internal_force(before: Option<&Band>, band: &Band, node: usize) -> [f64; 2] {
+    total(tail(before, |b| &b.work.sums), &band.work.sums, node).force()
 }
 
 /// Sums of node `i` of a band over its points and those of the band before it.
@@ -77,8 +82,9 @@ pub fn old_velocities(mut before: Option<&mut Band>, band: &mut Band) {
     }
 }
 
-/// Velocities from the momentum that the points carry after their update (MUSL), for the stress update.
-pub fn remapped_velocities(mut before: Option<&mut Band>, band: &mut Band) {
+/// Velocities from the momentum that the points carry after their update (MUSL), for the stress update. Books what boundaries take of
+/// them in a step of `dt` seconds.
+pub fn remapped_velocities(mut before: Option<&mut Band>, band: &mut Band, dt: f64) {
     let momenta = tail(before.as_deref(), |b| &b.work.remapped);
     let work = &mut band.work;
     for (i, &m) in work.mass.iter().enumerate() {
@@ -88,7 +94,15 @@ pub fn remapped_velocities(mut before: Option<&mut Band>, band: &mut Band) {
         }
         work.strain_velocity[i] = per_mass(m, p);
     }
-    project(band);
+    let sums = tail(before.as_deref(), |b| &b.work.sums);
+    let Band { work, holds, tallies, first_node, .. } = band;
+    for holds in holds.chunk_by(|a, b| a.node == b.node) {
+        let node = holds[0].node as usize - *first_node;
+        let [x, y, ..] = work.motion[node];
+        let internal = scaled(total(sums, &work.sums, node).force(), dt);
+        let remapped = Remapped { balance: [x, y], v: work.strain_velocity[node], internal };
+        work.strain_velocity[node] = remapped.project(holds, tallies);
+    }
     if let Some(before) = &mut before {
         let owned = before.owned;
         hand_back(&band.work.strain_velocity, owned, &mut before.work.strain_velocity);
@@ -111,7 +125,7 @@ fn motion(old: [f64; 2], v: [f64; 2]) -> [f64; 4] {
 fn project(band: &mut Band) {
     let velocity = &mut band.work.strain_velocity;
     for holds in band.holds.chunk_by(|a, b| a.node == b.node) {
-        nodes::project(holds, &mut velocity[holds[0].node as usize - band.first_node]);
+        nodes::project(holds, &mut velocity[holds[0].node as usize - band.first_node], |_, _| {});
     }
 }
 

@@ -9,7 +9,7 @@ use crate::boundary::{Boundary, BoundaryContact};
 use crate::constitutive::{AnyLaw, LinearElastic};
 use crate::grid::Lattice;
 use crate::shape::ShapeFunction;
-use crate::simulation::{Numerics, PicShare, Scene, Scheme, Simulation, StepFailure};
+use crate::simulation::{Numerics, OpenedVolume, PicShare, Scene, Scheme, Simulation, StepFailure};
 
 /// A linear elastic law of Young's modulus (Pa) and Poisson's ratio.
 pub fn elastic(young: f64, poisson: f64) -> AnyLaw {
@@ -89,6 +89,7 @@ pub fn scene(brick: &Brick, law: AnyLaw, density: f64, points: Vec<Particle>, bo
             max_time_step: 1.0,
             pic: PicShare::Fraction(0.0),
             boundary_contact: BoundaryContact::Surface,
+            opened_volume: OpenedVolume::Occupied,
         },
     }
 }

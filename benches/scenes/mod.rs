@@ -9,7 +9,7 @@ use checkdam::contact::rule::ContactRule;
 use checkdam::grid::Lattice;
 use checkdam::run::Experiment;
 use checkdam::shape::ShapeFunction;
-use checkdam::simulation::{Numerics, PicShare, Scene, Scheme, Simulation};
+use checkdam::simulation::{Numerics, OpenedVolume, PicShare, Scene, Scheme, Simulation};
 use std::path::Path;
 
 /// Cell size of the column, m.
@@ -73,6 +73,7 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
             max_time_step: 1.0,
             pic: PicShare::Fraction(0.01),
             boundary_contact: BoundaryContact::Surface,
+            opened_volume: OpenedVolume::Occupied,
         },
     })
 }
@@ -146,6 +147,7 @@ pub fn barrier(spacing: f64, implicit: bool) -> Simulation {
             max_time_step: 1.0,
             pic: PicShare::Fraction(0.01),
             boundary_contact: BoundaryContact::Surface,
+            opened_volume: OpenedVolume::Occupied,
         },
     });
     while simulation.time() < 0.1 {

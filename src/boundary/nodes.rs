@@ -234,22 +234,76 @@ pub fn book(holds: &[Hold], mean: [f64; 2], tallies: &mut [Tally]) {
 }
 
 /// Applies to a velocity what [`solve`] decided: nothing presses inwards, sticking nodes move with the boundary. For
-/// velocity fields that only strain the material, so no impulse is counted.
-pub fn project(holds: &[Hold], v: &mut [f64; 2]) {
+/// velocity fields that only strain the material, so no impulse is counted; `taken` is told what each boundary takes, m/s.
+pub fn project(holds: &[Hold], v: &mut [f64; 2], mut taken: impl FnMut(&Hold, [f64; 2])) {
     let sweeps = if holds.len() > 1 { 4 } else { 1 };
     for _ in 0..sweeps {
         for hold in holds {
             let approach = dot(minus(*v, hold.wall), hold.normal);
-            match hold.state {
-                HoldState::Apart => {}
-                HoldState::Sticking => *v = hold.wall,
-                HoldState::Slipping => {
-                    let stop = if hold.both_ways { approach } else { approach.min(0.0) };
-                    *v = minus(*v, scaled(hold.normal, stop));
+            let stop = match hold.state {
+                HoldState::Apart => continue,
+                HoldState::Sticking => {
+                    taken(hold, minus(*v, hold.wall));
+                    *v = hold.wall;
+                    continue;
                 }
-            }
+                HoldState::Slipping => {
+                    if hold.both_ways {
+                        approach
+                    } else {
+                        approach.min(0.0)
+                    }
+                }
+            };
+            let stop = scaled(hold.normal, stop);
+            taken(hold, stop);
+            *v = minus(*v, stop);
         }
     }
+}
+
+/// Books what boundaries do to a node between the velocity that the balance found and the one that strains the material (MUSL).
+///
+/// The kinetic energy of the points changes by impulse times the mean of the node's velocity before the step and that of their new
+/// momentum, mapped back, where [`solve`] took the new velocity of the balance. And of what the internal force does by that velocity,
+/// the material stores or dissipates only what is left of it after [`project`]: the rest is taken at the boundary.
+#[derive(Debug, Clone, Copy)]
+pub struct Remapped {
+    /// Velocity that the balance found, m/s.
+    pub balance: [f64; 2],
+    /// Velocity of the points' new momentum, m/s.
+    pub v: [f64; 2],
+    /// Impulse of the internal force in the step, N s.
+    pub internal: [f64; 2],
+}
+
+impl Remapped {
+    /// Projects the velocity, which is returned, and adds to the tallies of the boundaries that act on their surface.
+    pub fn project(self, holds: &[Hold], tallies: &mut [Tally]) -> [f64; 2] {
+        let half = scaled(minus(self.v, self.balance), 0.5);
+        for hold in holds.iter().filter(|h| h.both_ways && h.state != HoldState::Apart) {
+            let more = hold.tally(half);
+            let tally = &mut tallies[hold.boundary as usize];
+            tally.friction_work += more.friction_work;
+            tally.normal_work += more.normal_work;
+        }
+        let mut v = self.v;
+        project(holds, &mut v, |hold, taken| {
+            if hold.both_ways {
+                let [normal, friction] = work_along(hold.normal, self.internal, taken);
+                let tally = &mut tallies[hold.boundary as usize];
+                tally.normal_work += normal;
+                tally.friction_work += friction;
+            }
+        });
+        v
+    }
+}
+
+/// Work of an impulse by a velocity, along a normal and along its face, J.
+pub(super) fn work_along(normal: [f64; 2], impulse: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+    let face = clockwise(normal);
+    [dot(impulse, normal) * dot(v, normal), dot(impulse, face) * dot(v, face)]
 }
 
 impl Hold {

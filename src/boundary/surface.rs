@@ -9,7 +9,7 @@
 //! constraint with its adjoint distribution of forces.
 
 use super::Boundary;
-use super::nodes::{HoldState, Tally};
+use super::nodes::{HoldState, Tally, work_along};
 use crate::space::{clockwise, dot, mean, minus, moment, plus, scaled};
 
 /// A crossing of a boundary's surface with a grid line.
@@ -62,6 +62,10 @@ pub struct SiteNode {
     pub old: [f64; 2],
     /// Velocity, m/s.
     pub v: [f64; 2],
+    /// Velocity that the balance of the step found, m/s; set for the velocities that strain the material.
+    pub balance: [f64; 2],
+    /// Impulse of the internal force in the step, N s; set likewise.
+    pub internal: [f64; 2],
 }
 
 impl Site {
@@ -205,16 +209,38 @@ impl Site {
     }
 
     /// Applies to velocities that only strain the material what the step decided: what is held does not move along the normal, and
-    /// what sticks does not move.
-    pub fn project(&self, nodes: &mut [SiteNode]) {
-        let Some(mobility) = self.mobility(nodes) else { return };
+    /// what sticks does not move. Returns what it takes of the velocities of its two nodes, m/s.
+    pub fn project(&self, nodes: &mut [SiteNode]) -> [[f64; 2]; 2] {
+        let Some(mobility) = self.mobility(nodes) else { return [[0.0; 2]; 2] };
         let v = self.velocity(|k| nodes[k].v);
         let free = self.free + self.passing(nodes);
         let stop = match self.state {
-            HoldState::Apart => return,
+            HoldState::Apart => return [[0.0; 2]; 2],
             HoldState::Sticking => plus(v, scaled(self.normal, free)),
             HoldState::Slipping => scaled(self.normal, dot(v, self.normal) + free),
         };
         self.give(scaled(stop, -1.0 / mobility), nodes);
+        [0, 1].map(|k| match self.shares[0][k] {
+            0.0 => [0.0; 2],
+            w => scaled(stop, w / (mobility * nodes[self.nodes[k] as usize].mass)),
+        })
+    }
+
+    /// Works that [`Self::tally`] lacks where the points' new momentum, mapped back, gives the nodes of the group the velocities
+    /// `remapped` (m/s) instead of those that the balance found; along the normal and along the face, J. See
+    /// [`super::nodes::Remapped`].
+    pub fn remapped_work(&self, balance: impl Fn(usize) -> [f64; 2], remapped: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
+        if self.state == HoldState::Apart {
+            return [0.0; 2];
+        }
+        let half = self.velocity(|k| scaled(minus(remapped(k), balance(k)), 0.5));
+        work_along(self.normal, self.vector_impulse(), half)
+    }
+
+    /// Work along the normal and along the face of the internal forces of its two nodes (impulses, N s) by what [`Self::project`] has
+    /// taken, J.
+    pub fn taken_work(&self, internal: impl Fn(usize) -> [f64; 2], taken: [[f64; 2]; 2]) -> [f64; 2] {
+        let [a, b] = [0, 1].map(|k| work_along(self.normal, internal(self.nodes[k] as usize), taken[k]));
+        plus(a, b)
     }
 }

@@ -13,7 +13,7 @@ use super::gauges::Gauges;
 use super::grid::{Domain, Grid};
 use super::material::Material;
 use crate::boundary::BoundaryContact;
-use crate::simulation::{PicShare, Scheme};
+use crate::simulation::{OpenedVolume, PicShare, Scheme};
 
 /// Most particles a case may have; above this it is refused before any memory is asked for.
 pub const MAX_PARTICLES: f64 = 2.0e7;
@@ -244,6 +244,9 @@ pub struct Numerics {
     pub max_time_step_s: Option<f64>,
     /// Where boundaries act. Default: `"surface"`. Example: `"nodes"`.
     pub boundary_contact: BoundaryContact,
+    /// What the opened strain of material that came apart follows, where `void_tracking` is on. Default: `"occupied"`.
+    /// Example: `"strain"`.
+    pub opened_volume: OpenedVolume,
 }
 
 impl Default for Numerics {
@@ -255,6 +258,7 @@ impl Default for Numerics {
             pic_rate_per_s: None,
             max_time_step_s: None,
             boundary_contact: BoundaryContact::Surface,
+            opened_volume: OpenedVolume::Occupied,
         }
     }
 }

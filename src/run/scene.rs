@@ -177,6 +177,7 @@ fn numerics(case: &Case) -> Numerics {
         max_time_step: n.max_time_step_s.unwrap_or(f64::INFINITY),
         pic: n.pic(),
         boundary_contact: n.boundary_contact,
+        opened_volume: n.opened_volume,
     }
 }
 

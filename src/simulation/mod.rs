@@ -18,6 +18,7 @@ use coupling::Coupling;
 use failure::CRUSHED;
 use field::VelocityField;
 use implicit::{ImplicitBody, Turn};
+use occupied::Occupied;
 use stages::Stage;
 use surface::Surface;
 use sweep::{On, Pool};
@@ -27,6 +28,7 @@ mod coupling;
 mod failure;
 mod field;
 mod implicit;
+mod occupied;
 mod scene;
 mod stages;
 mod surface;
@@ -34,7 +36,7 @@ mod sweep;
 
 pub use coupling::ContactPoint;
 pub use failure::StepFailure;
-pub use scene::{Acceleration, AccelerationField, Numerics, PicShare, Scene, Scheme};
+pub use scene::{Acceleration, AccelerationField, Numerics, OpenedVolume, PicShare, Scene, Scheme};
 
 /// Share of the stable time step that is left unused so that a step can keep its length for a while.
 const SPARE: f64 = 0.03;
@@ -62,6 +64,7 @@ pub struct Simulation {
     pools: Vec<Pool>,
     coupling: Coupling,
     surface: Surface,
+    occupied: Occupied,
     /// Whether a field was sorted anew, or its boundaries have changed, since the open nodes were found.
     stale: bool,
     implicit: Vec<ImplicitBody>,
@@ -115,6 +118,7 @@ impl Simulation {
             ledger: Ledger::new(boundaries.len(), scene.contacts.len()),
             coupling: Coupling::new(&scene.contacts, &fields),
             surface: Surface::default(),
+            occupied: Occupied::default(),
             stale: true,
             implicit: implicit::bodies(&fields),
             bodies,
@@ -214,9 +218,9 @@ impl Simulation {
                     });
                     after = Some(Turn::Finish);
                 }
-                Some(Stage::RemappedVelocities | Stage::OldVelocities) => sweep::alone(|| {
+                Some(stage @ (Stage::RemappedVelocities | Stage::OldVelocities)) => sweep::alone(|| {
                     coupling.project(fields);
-                    surface.project(fields);
+                    surface.project(fields, (stage == Stage::RemappedVelocities).then_some(dt));
                 }),
                 _ => {}
             }
@@ -322,6 +326,9 @@ impl Simulation {
     fn sort(&mut self, field: usize) {
         let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
         self.fields[field].sort(&rules, &self.boundaries, self.numerics.boundary_contact);
+        if self.numerics.opened_volume == OpenedVolume::Occupied {
+            self.occupied.bound(&mut self.fields, field, &self.boundaries, self.thickness);
+        }
         self.stale = true;
         if let Some(body) = self.implicit.iter_mut().find(|b| b.field == field) {
             body.rebuild(field, &self.fields[field], self.numerics.shape);
@@ -333,6 +340,7 @@ impl Simulation {
 
     /// Finds what holds each node.
     fn find_holds(&mut self) {
+        self.occupied.forget_boundaries();
         let contact = self.numerics.boundary_contact;
         self.fields.iter_mut().for_each(|f| f.find_holds(&self.boundaries, contact));
         self.stale = true;

@@ -44,6 +44,18 @@ impl PicShare {
     }
 }
 
+/// What the opened strain of material that came apart follows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum OpenedVolume {
+    /// The strain that the grid sees, within what the volume that the points occupy allows.
+    #[default]
+    Occupied,
+    /// The strain that the grid sees alone: sand that falls apart and comes together again stands up to 40 % too high.
+    Strain,
+}
+
 /// Choices of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Numerics {
@@ -59,6 +71,8 @@ pub struct Numerics {
     pub pic: PicShare,
     /// Where boundaries act.
     pub boundary_contact: BoundaryContact,
+    /// What the opened strain of material that came apart follows.
+    pub opened_volume: OpenedVolume,
 }
 
 /// A field of accelerations (m/s2), given a point and the time (s). It is asked while bands are held by their threads, so it must not

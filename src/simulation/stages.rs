@@ -100,7 +100,7 @@ impl Step<'_> {
                 momentum::balance(before, band, self.boundaries, of.forces(self.forces), self.velocity.dt);
             }
             Stage::GridToPoints => self.grid_to_points(of, band),
-            Stage::RemappedVelocities => momentum::remapped_velocities(before, band),
+            Stage::RemappedVelocities => momentum::remapped_velocities(before, band, self.velocity.dt),
             Stage::Stress => self.update_stress(of, band),
         }
     }

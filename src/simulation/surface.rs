@@ -211,7 +211,7 @@ impl Surface {
                 let band = &mut fields[place.field].bands[place.band];
                 let open = &band.open[place.index];
                 let v = if place.met && open.mass > 0.0 { band.velocity(place.node) } else { open.free };
-                *state = SiteNode { mass: open.mass, old: open.old, v };
+                *state = SiteNode { mass: open.mass, old: open.old, v, ..SiteNode::default() };
                 if !place.met {
                     nodes::reset(&mut band.holds[place.holds.clone()]);
                 }
@@ -267,23 +267,40 @@ impl Surface {
         }
     }
 
-    /// Applies what was decided to the velocities that strain the material.
-    pub fn project(&mut self, fields: &mut [VelocityField]) {
-        let Self { groups, nodes, sites, states, .. } = self;
+    /// Applies what was decided to the velocities that strain the material. `remapped` is the length of the step (s) where these are
+    /// of the points' new momentum (MUSL): then it books what boundaries take of them, see [`nodes::Remapped`].
+    pub fn project(&mut self, fields: &mut [VelocityField], remapped: Option<f64>) {
+        let Self { groups, nodes, sites, states, tallies, .. } = self;
         for group in groups.iter() {
             let (places, sites) = (&nodes[group.nodes.clone()], &sites[group.sites.clone()]);
             let states = &mut states[group.nodes.clone()];
             for (place, state) in places.iter().zip(states.iter_mut()) {
-                let work = &fields[place.field].bands[place.band].work;
+                let (before, band) = with_before(&mut fields[place.field].bands, place.band);
+                let work = &band.work;
                 (state.mass, state.v) = (work.mass[place.node], work.strain_velocity[place.node]);
+                state.balance = band.velocity(place.node);
+                state.internal = remapped
+                    .map_or([0.0; 2], |dt| scaled(momentum::internal_force(before.as_deref(), band, place.node), dt));
+            }
+            let mut book = |site: &Site, [normal, friction]: [f64; 2]| {
+                let field = places.first().map_or(0, |p| p.field);
+                let tally = &mut tallies[field][site.boundary as usize];
+                tally.normal_work += normal;
+                tally.friction_work += friction;
+            };
+            if remapped.is_some() {
+                for site in sites {
+                    book(site, site.remapped_work(|k| states[k].balance, |k| states[k].v));
+                }
             }
             for _ in 0..if sites.len() > 1 { 4 } else { 1 } {
                 for site in sites {
-                    site.project(states);
+                    let taken = site.project(states);
+                    book(site, site.taken_work(|k| states[k].internal, taken));
                 }
                 for (place, state) in places.iter().zip(states.iter_mut()) {
                     let holds = &fields[place.field].bands[place.band].holds[place.holds.clone()];
-                    nodes::project(holds, &mut state.v);
+                    nodes::project(holds, &mut state.v, |_, _| {});
                 }
             }
             for (place, state) in places.iter().zip(states.iter()) {

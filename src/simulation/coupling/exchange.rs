@@ -240,7 +240,7 @@ impl Coupling {
             node::project(&mut sides[..own.len()], &self.touches[solved.touches.clone()]);
             for (side, at) in sides.iter_mut().zip(own).filter(|(s, _)| s.mass > 0.0) {
                 let (before, band) = with_before(&mut fields[at.field].bands, at.band);
-                nodes::project(&band.holds[at.holds.clone()], &mut side.velocity);
+                nodes::project(&band.holds[at.holds.clone()], &mut side.velocity, |_, _| {});
                 momentum::set_strain_velocity(before, band, at.node, side.velocity);
             }
         }
