@@ -16,6 +16,7 @@ pub mod drucker_prager_point;
 pub mod earth_pressure;
 pub mod energy;
 pub mod exactness;
+pub mod fall;
 pub mod fault;
 pub mod figure;
 pub mod manufactured;
@@ -141,6 +142,7 @@ ladder! { $
     neo_hookean,
     contact,
     wall_pressure,
+    fall,
     collapse,
     convergence,
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::boundary::{Boundary, BoundaryContact, Friction, Opening};
 use crate::constitutive::{AnyLaw, Cone, DruckerPrager, LinearElastic};
 use crate::contact::rule::ContactRule;
-use crate::scaffold::{centre, points_by_number, run_until};
+use crate::scaffold::{Lcg, centre, points_by_number, run_until};
 use nalgebra::Vector2;
 
 /// A block of 4 by 3 cells on a plane at `angle` (rad) to the grid, its corner on the plane at `corner` (m), with gravity towards
@@ -251,6 +251,32 @@ fn a_gate_that_is_gone_holds_nothing() {
             sim.open_ledger();
             sim = stepped(sim, 50);
             assert_eq!(sim.ledger().boundaries[0].impulse, [0.0; 2], "{place} {opening:?}");
+        }
+    }
+}
+
+#[test]
+fn boundaries_take_what_the_points_lose() {
+    // Without stress, all that points lose in a step went to the boundaries: at nodes, between them, in a corner, sliding or sticking.
+    let mut random = Lcg::new(7);
+    for place in [0.0, 0.3, 0.5] {
+        for friction in [Friction::Smooth, Friction::Coulomb(0.4), Friction::Rough] {
+            let low = place * H;
+            let planes = [[1.0, 0.0], [0.0, 1.0]].map(|n| Boundary::plane("p", [low, low].into(), n.into(), friction));
+            let brick = Brick::new([low, low], [4, 3], H);
+            let mut points = brick.points();
+            points.iter_mut().for_each(|p| p.v = [random.signed() - 0.5, random.signed() - 0.5]);
+            let mut scene = scene(&brick, law(), DENSITY, points, planes.into());
+            scene.numerics.max_time_step = DT;
+            let kinetic = |sim: &Simulation| sim.stock().kinetic;
+            let mut sim = Simulation::new(scene);
+            let before = kinetic(&sim);
+            sim.step().expect("a step");
+            let lost = before - kinetic(&sim);
+            let taken: f64 = sim.step_tallies().iter().map(|t| -t.friction_work - t.normal_work).sum();
+            assert!(lost > 0.01 * before, "{lost} of {before}");
+            // In a corner between nodes, boundaries act one after the other on what is left to strain the material.
+            assert!((taken - lost).abs() < 1e-9 * lost, "{place} {friction:?}: {taken} of {lost}");
         }
     }
 }
