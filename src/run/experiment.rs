@@ -76,6 +76,11 @@ impl Experiment {
         &self.gauges.windows
     }
 
+    /// The case.
+    pub(super) fn case(&self) -> &Case {
+        &self.case
+    }
+
     /// Gauges of the case.
     pub fn gauges(&self) -> &crate::case::Gauges {
         &self.case.gauges

@@ -90,7 +90,7 @@ fn quantities_that_no_run_has_are_left_out_of_the_table() {
     let mut table = Runs::open(&path, &study.columns());
     let mut numbers = vec![f64::NAN; QUANTITIES.len()];
     (numbers[2], numbers[5]) = (1.5, -2.0);
-    table.insert(&runs[0], Row::new("at rest", &numbers));
+    table.insert(&runs[0], Row::new("at rest", true, &numbers));
     table.save(&runs).expect("a table");
     let text = std::fs::read_to_string(&path).expect("a table");
     let header = format!("key,ended,{},{}", QUANTITIES[2].name, QUANTITIES[5].name);

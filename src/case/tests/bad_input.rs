@@ -113,7 +113,7 @@ const GEOMETRY_AND_TIMES: &[Bad] = &[
     ("1.0, 1.5]", "1.5, 1.0]", "1.5, 1.0]", &["field_times_s[7] = 1.0", "the one before is 1.5", "sort"]),
     ("1.0, 1.5]", "1.0, 15]", "1.0, 15]", &["time <= stages.run.end_time_s = 6"]),
     ("mass_kg = 30", "mass_kg = 33", "mass_kg = 33", &["mass_kg = 33 differs", "30 kg", "density_kg_per_m3 = 1650", "y_m = [0, 0.55]"]),
-    ("x_m = [-0.2, 0.0]", "x_m = [-0.2, -0.199]", "-0.199]", &["body `sand` holds no particle"]),
+    ("x_m = [-0.2, 0.0]", "x_m = [-0.2, -0.199]", "-0.199]", &["body `sand` is thinner than a particle", "grid.spacing_m = 0.002 or less"]),
     ("spacing_m = 0.01", "spacing_m = 2.0e-5", "2.0e-5", &["1.0e9 particles", "at most 2.0e7 particles", "spacing_m >= 0.00015", "8.8e9 grid cells", "use spacing_m = 0.00027 or more"]),
     ("end_time_s = 6.0", "end_time_s = 6.0e6", "6.0e6", &["time steps", "or less"]),
 ];
