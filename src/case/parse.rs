@@ -5,7 +5,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::path::KeyPath;
-use super::report::{Diagnostic, Source, path_at};
+use super::report::{Diagnostic, Place, Source, locate, path_at};
 use super::suggest::nearest;
 use super::validate::Problem;
 
@@ -165,7 +165,11 @@ fn key_or_type(format: &Format, source: &Source<'_>, root: &DeTable<'_>, error: 
     let guess = nearest(word, names.iter().copied()).map(|guess| format!("did you mean `{guess}`?"));
 
     let (what, allowed, fix) = if message.starts_with("unknown field") {
-        let fix = guess.unwrap_or_else(|| "remove it, or move it to the table it belongs to".to_owned());
+        let there = |name: &str| matches!(locate(root, &path.beside(name)), Place::Value(_));
+        let fix = match nearest(word, names.iter().copied()) {
+            Some(name) if there(name) => format!("remove the line: `{name}` is given beside it"),
+            _ => guess.unwrap_or_else(|| "remove it, or move it to the table it belongs to".to_owned()),
+        };
         (format!("{path} is not a key of a {}", format.kind), listed, fix)
     } else if message.starts_with("missing field") {
         missing(format, &path, word)
@@ -207,7 +211,11 @@ fn expected(message: &str, written: &str) -> (String, String) {
         "f64" | "u32" | "usize" | "a string" | "a boolean" if written.starts_with('[') => {
             let inner = written.trim_matches(['[', ']']).trim();
             let single = !inner.is_empty() && !inner.contains([',', '[', '\n']);
-            let fix = if single { format!("write one value, without brackets: {inner}") } else { "write one value, without brackets".to_owned() };
+            let fix = if single {
+                format!("write one value, without brackets: {inner}")
+            } else {
+                "write one value, without brackets".to_owned()
+            };
             ("one value, not a list", fix)
         }
         "f64" | "u32" | "usize" | "a string" | "a boolean" if written.starts_with('{') => {
@@ -218,7 +226,9 @@ fn expected(message: &str, written: &str) -> (String, String) {
         }
         "f64" if message.contains("i128") => ("a number", "write large numbers with an exponent: 1e20".to_owned()),
         "f64" => ("a number", "write a number such as 1.5 or 1.0e6".to_owned()),
-        "u32" | "usize" => ("a whole number, not negative", "write a number such as 4, without a decimal point".to_owned()),
+        "u32" | "usize" => {
+            ("a whole number, not negative", "write a number such as 4, without a decimal point".to_owned())
+        }
         "a boolean" => ("true or false", "write true or false, without quotes".to_owned()),
         "a string" => ("text in double quotes", format!("write {:?}", unquoted)),
         "a sequence" => ("a list", "write a list such as [0.1, 0.2]".to_owned()),

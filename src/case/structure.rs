@@ -52,13 +52,7 @@ pub fn misplaced_in_study(root: &DeTable<'_>) -> Vec<Problem> {
 }
 
 /// A list of tables that may hold another one.
-fn nested_lists(
-    known: [(&str, &str); 2],
-    at: &KeyPath,
-    key: &str,
-    value: &DeValue<'_>,
-    problems: &mut Vec<Problem>,
-) {
+fn nested_lists(known: [(&str, &str); 2], at: &KeyPath, key: &str, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
     let Some((_, inner)) = known.into_iter().find(|(outer, _)| *outer == key) else { return };
     let path = at.key(key);
     list(&path, value, problems);

@@ -2,6 +2,7 @@
 
 mod check;
 mod console;
+mod memory;
 mod progress;
 mod run;
 mod study;
@@ -147,6 +148,10 @@ fn load(path: &std::path::Path) -> Result<checkdam::case::Case, ExitCode> {
         Ok(loaded) => {
             for warning in &loaded.warnings {
                 tell!("{}\n", warning.trim_end());
+            }
+            if let Some(missing) = memory::missing(&loaded.case) {
+                tell!("error: {missing}");
+                return Err(ExitCode::from(BAD_INPUT));
             }
             Ok(loaded.case)
         }

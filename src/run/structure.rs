@@ -134,10 +134,39 @@ impl StructureResults {
             note(Kind::Torn, text);
         }
         if self.imbalance_1 > BALANCED {
-            let text =
-                format!("contact, clamp and inertia of {name} miss each other by {:.1e} of their sum", self.imbalance_1);
+            let text = format!(
+                "contact, clamp and inertia of {name} miss each other by {:.1e} of their sum",
+                self.imbalance_1
+            );
             note(Kind::Balance, text);
         }
+    }
+}
+
+/// A barrier about which nothing is odd.
+#[cfg(test)]
+pub(super) fn for_tests() -> StructureResults {
+    StructureResults {
+        height_m: 0.5,
+        peak_50hz_n: 0.0,
+        arrival_kinetic_1: 0.0,
+        arrival_dissipated_1: 0.0,
+        tip_max_m: 0.0,
+        peak_deflection_m: 0.0,
+        peak_deflection_height_m: 0.0,
+        peak_barrier_velocity_m_per_s: 0.0,
+        tip_final_m: 0.0,
+        tip_final_1: 0.0,
+        peak_clamp_n: 0.0,
+        peak_clamp_time_s: 0.0,
+        static_clamp_n: 0.0,
+        static_clamp_moment_n_m: 0.0,
+        imbalance_1: 0.0,
+        penetration_max_m: 0.0,
+        gap_cells: 0.0,
+        gap_time_s: 0.0,
+        gap_height_m: 0.0,
+        torn: false,
     }
 }
 

@@ -127,7 +127,10 @@ fn ending(summary: &Summary, end: Option<End>, add: &mut impl FnMut(Kind, String
         && (reached.is_nan() || reached > wanted)
         && end.is_some_and(|end| end != End::Stopped)
     {
-        add(Kind::Settling, format!("the material was released before it had settled: residual {reached:.1e}, wanted {wanted:.1e}"));
+        add(
+            Kind::Settling,
+            format!("the material was released before it had settled: residual {reached:.1e}, wanted {wanted:.1e}"),
+        );
     }
     let interval = 1.0 / summary.case.gauges.sample_rate_hz;
     if summary.barrier.is_some() && interval > SAMPLE_S * (1.0 + 1e-9) {
@@ -161,12 +164,18 @@ fn ledgers(summary: &Summary, experiment: &Experiment, records: &Records, add: &
     if turned > 0.0 && missing > ENERGY_OPEN * turned {
         add(
             Kind::Energy,
-            format!("energy does not close: {:.2} % of what was turned over is not accounted for", 100.0 * missing / turned),
+            format!(
+                "energy does not close: {:.2} % of what was turned over is not accounted for",
+                100.0 * missing / turned
+            ),
         );
     }
     let pic = records.energy.last().map_or(0.0, |r| r.balance.pic);
     if turned > 0.0 && pic > PIC_SHARE * turned {
-        add(Kind::Pic, format!("PIC took {:.0} % of the energy that was turned over: use a smaller share", 100.0 * pic / turned));
+        add(
+            Kind::Pic,
+            format!("PIC took {:.0} % of the energy that was turned over: use a smaller share", 100.0 * pic / turned),
+        );
     }
     if summary.momentum.momentum_closure_1 > MOMENTUM_OPEN {
         let closure = summary.momentum.momentum_closure_1;

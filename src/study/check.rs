@@ -67,7 +67,12 @@ impl Checker<'_> {
             if axis.is_empty() || axis.fields.is_empty() != axis.values.is_empty() {
                 let what = format!("axis `{}` has no value or no field", axis.name);
                 let fix = "add values = [...] and fields = [\"grid.spacing_m\"]";
-                self.problem(KeyPath::top("axis").index(k), what, "values with the fields that take them, or levels", fix);
+                self.problem(
+                    KeyPath::top("axis").index(k),
+                    what,
+                    "values with the fields that take them, or levels",
+                    fix,
+                );
             }
         }
     }
@@ -121,12 +126,21 @@ impl Checker<'_> {
                 let what = format!("range `{}` from {} to {} is empty", r.name, r.low, r.high);
                 let allowed = "low < high, both finite, and above 0 on a logarithmic range";
                 let swapped = r.low > r.high && r.high > low;
-                let fix = if swapped { format!("write low = {}, high = {}", r.high, r.low) } else { "give the range a length".into() };
+                let fix = if swapped {
+                    format!("write low = {}, high = {}", r.high, r.low)
+                } else {
+                    "give the range a length".into()
+                };
                 self.problem(path.key("low"), what, allowed, &fix);
             }
             if r.fields.is_empty() {
                 let what = format!("range `{}` has no field", r.name);
-                self.problem(path.key("fields"), what, "at least one path in the case", "add fields = [\"grid.spacing_m\"]");
+                self.problem(
+                    path.key("fields"),
+                    what,
+                    "at least one path in the case",
+                    "add fields = [\"grid.spacing_m\"]",
+                );
             }
         }
         for (k, c) in sample.choices.iter().enumerate().filter(|(_, c)| c.options.is_empty()) {

@@ -63,8 +63,9 @@ pub fn plan(
                 "error: {file} cannot be read: {source}\n --> {name}\n  = fix: cases are named relative to the study file"
             ))
         })?;
-        let table: Table = toml::from_str(&text)
-            .map_err(|e| StudyError::Malformed(case::parse(&text, file).err().map_or(e.to_string(), |e| e.to_string())))?;
+        let table: Table = toml::from_str(&text).map_err(|e| {
+            StudyError::Malformed(case::parse(&text, file).err().map_or(e.to_string(), |e| e.to_string()))
+        })?;
         let case_name = file.rsplit('/').next().unwrap_or(file).trim_end_matches(".toml").to_string();
         for point in &points {
             for replicate in 0..=study.replicates.as_ref().map_or(0, |r| r.count) {
@@ -72,7 +73,9 @@ pub fn plan(
                 let mut changed = table.clone();
                 let fail = |report: String| StudyError::Case { name: name.into(), run: what.clone(), report };
                 let bad_path = |what: String| {
-                    fail(format!("  {what}\n  = fix: write the path as in the case, names of list elements included: bodies.sand.mass_kg"))
+                    fail(format!(
+                        "  {what}\n  = fix: write the path as in the case, names of list elements included: bodies.sand.mass_kg"
+                    ))
                 };
                 for change in std::iter::once(&study.base).chain(&point.changes) {
                     change.apply(&mut changed).map_err(&bad_path)?;

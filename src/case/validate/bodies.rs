@@ -48,7 +48,8 @@ impl Checker<'_> {
         }
         let grid = self.is_clean(&KeyPath::top("grid").key("spacing_m"));
         let boundaries = KeyPath::top("boundaries");
-        let usable: Vec<bool> = (0..self.case.boundaries.len()).map(|k| grid && self.is_clean(&boundaries.index(k))).collect();
+        let usable: Vec<bool> =
+            (0..self.case.boundaries.len()).map(|k| grid && self.is_clean(&boundaries.index(k))).collect();
         for (index, body) in self.case.bodies.iter().enumerate().filter(|(_, body)| has_geometry(body)) {
             let at = list.index(index);
             self.inside_domain(&at, body);
@@ -83,7 +84,10 @@ impl Checker<'_> {
         } else if self.case.bodies.iter().all(|b| b.integration == Integration::Implicit)
             && self.case.numerics.max_time_step_s.is_none()
         {
-            ("\"implicit\" only beside a body in explicit steps, whose waves give the length of a step", "remove the line".to_owned())
+            (
+                "\"implicit\" only beside a body in explicit steps, whose waves give the length of a step",
+                "remove the line".to_owned(),
+            )
         } else {
             return;
         };
@@ -202,5 +206,7 @@ fn rounded(coordinate: f64, length: f64, round: fn(f64) -> f64) -> f64 {
 /// Whether the edges of a body are in order, so that it has corners and an area.
 pub(super) fn has_geometry(body: &Body) -> bool {
     let [length, height] = body.size_m();
-    [length, height, 1.0 / length, 1.0 / height, body.rotation_deg.abs() + 1.0].iter().all(|x| x.is_finite() && *x > 0.0)
+    [length, height, 1.0 / length, 1.0 / height, body.rotation_deg.abs() + 1.0]
+        .iter()
+        .all(|x| x.is_finite() && *x > 0.0)
 }

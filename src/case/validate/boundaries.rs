@@ -51,20 +51,28 @@ impl Checker<'_> {
         let of_bodies: Vec<&str> = self.case.bodies.iter().map(|b| b.name.as_str()).collect();
         self.one_column_each(&KeyPath::top("bodies"), &of_bodies);
         self.one_column_each(list, names);
-        let pair = |c: &BodyContact| Some(format!("{}_on_{}", file_name(c.bodies.first()?), file_name(c.bodies.get(1)?)));
+        let pair =
+            |c: &BodyContact| Some(format!("{}_on_{}", file_name(c.bodies.first()?), file_name(c.bodies.get(1)?)));
         let pairs: Vec<String> = self.case.contacts.iter().filter_map(pair).collect();
         for (index, name) in names.iter().enumerate() {
             let column = file_name(name);
             let taken = AGENTS.contains(&column.as_str()) || pairs.contains(&column);
             if taken {
-                let allowed = format!("a name that is no other column: {}, or BODY_on_BODY of a contact", AGENTS.join(", "));
+                let allowed =
+                    format!("a name that is no other column: {}, or BODY_on_BODY of a contact", AGENTS.join(", "));
                 self.not_allowed(&list.index(index).key("name"), name, &allowed, &format!("write \"{name} 1\""));
             }
         }
         for (index, pair) in pairs.iter().enumerate().filter(|(k, pair)| pairs[..*k].contains(pair)) {
             let what = format!("contacts[{index}] would have the columns `{pair}` of another contact");
             let path = KeyPath::top("contacts").index(index).key("bodies");
-            self.problem(&path, what, &"", "names of bodies that make columns which differ", "rename one of the bodies");
+            self.problem(
+                &path,
+                what,
+                &"",
+                "names of bodies that make columns which differ",
+                "rename one of the bodies",
+            );
         }
     }
 

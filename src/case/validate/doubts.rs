@@ -86,7 +86,10 @@ fn thin(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
         what: format!("the barrier `{}` is {} cells thick", body.name, text(cells)),
         value: toml_text(&if length <= height { body.x_m } else { body.y_m }),
         allowed: format!("{} cells or more through a body that bends", text(STRUCTURE_CELLS)),
-        fix: format!("use grid.spacing_m = {} or less, or read only whether it holds", text_down(depth / STRUCTURE_CELLS)),
+        fix: format!(
+            "use grid.spacing_m = {} or less, or read only whether it holds",
+            text_down(depth / STRUCTURE_CELLS)
+        ),
     })
 }
 

@@ -66,7 +66,8 @@ pub fn validate(case: &Case) -> Findings {
     checker.contacts();
     checker.cost();
     // What is refused needs no warning on top.
-    let refused = |warning: &Problem| checker.problems.iter().any(|p| p.path.is_in(&warning.path) || warning.path.is_in(&p.path));
+    let refused =
+        |warning: &Problem| checker.problems.iter().any(|p| p.path.is_in(&warning.path) || warning.path.is_in(&p.path));
     let warnings = warnings::warnings(case, checker.problems.is_empty()).into_iter().filter(|w| !refused(w)).collect();
     Findings { problems: checker.problems, warnings }
 }

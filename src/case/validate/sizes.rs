@@ -77,7 +77,8 @@ impl Checker<'_> {
         for (key, edges) in [("x_m", domain.x_m), ("y_m", domain.y_m)] {
             let farthest = edges[0].abs().max(edges[1].abs()) / h;
             if farthest > FARTHEST_CELL {
-                let allowed = format!("edges within {FARTHEST_CELL:e} cells of the origin; one lies {farthest:.1e} cells away");
+                let allowed =
+                    format!("edges within {FARTHEST_CELL:e} cells of the origin; one lies {farthest:.1e} cells away");
                 let fix = "move the origin to the material: subtract a constant from all coordinates";
                 self.not_allowed(&KeyPath::top("domain").key(key), &edges, &allowed, fix);
             }

@@ -47,7 +47,8 @@ impl Checker<'_> {
                 let fix = "refine the grid, or leave the wall out";
                 self.require(&at.key("height_m"), height, height <= 0.0 || height >= least, &allowed, fix);
                 let most = LARGEST_HEIGHT_CELLS * h;
-                let allowed = format!("at most {} m, {LARGEST_HEIGHT_CELLS:e} cells: pressures are kept for each", text(most));
+                let allowed =
+                    format!("at most {} m, {LARGEST_HEIGHT_CELLS:e} cells: pressures are kept for each", text(most));
                 let fix = format!("use height_m = {} or less, or a plane", text_down(most));
                 self.require(&at.key("height_m"), height, h <= 0.0 || height <= most, &allowed, &fix);
             }
