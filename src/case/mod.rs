@@ -32,7 +32,7 @@ pub use boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide, OpeningKin
 pub use contact::{BodyContact, GapKind, NormalKind};
 pub use gauges::{Gauges, Window};
 pub use geometry::direction;
-pub use grid::{Domain, Grid};
+pub use grid::{Domain, Filling, Grid};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{

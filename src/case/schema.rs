@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::boundary::Boundary;
 use super::contact::BodyContact;
 use super::gauges::Gauges;
-use super::grid::{Domain, Grid};
+use super::grid::{Domain, Filling, Grid};
 use super::material::Material;
 use crate::boundary::BoundaryContact;
 use crate::simulation::{PicShare, Scheme};
@@ -80,7 +80,7 @@ pub struct Gravity {
 ///
 /// Particles sit on a lattice in the axes of the rectangle, the first one half a spacing inside its lower left corner. The
 /// spacing is h / sqrt(particles per cell), or the nearest to it that fills the side, so that the particles carry the mass of
-/// the rectangle and end where it ends.
+/// the rectangle and end where it ends; `grid.filling = "square"` leaves it at the former.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -302,6 +302,10 @@ impl Body {
     pub fn lattice(&self, grid: &Grid) -> Lattice {
         let wanted = self.particle_spacing_m(grid);
         let sides = self.size_m().map(|length| {
+            if grid.filling == Filling::Square {
+                // Points at (i + 1/2) s inside the length L: i + 1/2 <= L/s, with room for rounding.
+                return ((length / wanted + 0.5 + 1.0e-9).floor().max(0.0), wanted);
+            }
             let count = (length / wanted).round();
             let off = (count * wanted - length).abs() / length;
             if length < wanted * (1.0 - FILLED_TO) {

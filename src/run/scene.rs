@@ -201,6 +201,26 @@ mod tests {
         assert_eq!(cases[1].particle_count_estimate(), 19240.0);
     }
 
+    /// The recorded runs of the rigid barrier at 60 degrees on 20 mm have half a row of points too many.
+    #[test]
+    fn a_square_lattice_is_that_of_the_cells() {
+        let text = include_str!("../../validation/barrier/60deg_rigid_calibrated.toml");
+        let text = text.replacen("spacing_m = 0.01 ", "spacing_m = 0.02 ", 1);
+        let text = text.replacen("particles_per_cell = 4", "particles_per_cell = 9", 1);
+        let square = text.replacen("[grid]", "[grid]\nfilling = \"square\"", 1);
+        let mass = |text: &str| {
+            let loaded = case::parse(text, "60deg.toml").unwrap_or_else(|e| panic!("{e}"));
+            let scene = build(&loaded.case);
+            (scene.bodies[0].1.len() as f64 * scene.bodies[0].0.point_mass, loaded.warnings.join(""))
+        };
+        let [(fitted, none), (more, warned)] = [mass(&text), mass(&square)];
+        assert!((fitted - 30.0).abs() < 1e-9 && !none.contains("times its mass"), "{fitted} {none}");
+        assert!(
+            (more - 30.0 * 38.0 / 37.5).abs() < 1e-9 && warned.contains("carry 1.01333 times its mass"),
+            "{more} {warned}"
+        );
+    }
+
     /// Whatever the cells: the points carry the mass of the drawing, and their own share of it ends where the drawing ends.
     #[test]
     fn points_carry_the_mass_of_the_drawing_and_end_where_it_ends() {

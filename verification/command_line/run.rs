@@ -180,7 +180,7 @@ fn a_body_that_does_not_settle_is_an_error() {
 fn a_run_that_is_to_be_trusted_says_so_by_its_exit_code() {
     let lab = Lab::new(
         &changed("end_time_s = 0.4\nstop_at_rest = false", "end_time_s = 4")
-            .replace("spacing_m = 0.05", "spacing_m = 0.02")
+            .replace("spacing_m = 0.05", "spacing_m = 0.01")
             .replace("vtk_interval_s = 0.05", "vtk_interval_s = 0"),
     );
     let outcome = lab.run(&["run", "case.toml"]);

@@ -10,7 +10,7 @@ use crate::case::suggest::did_you_mean;
 /// Overlap up to this depth is rounding, m.
 const OVERLAP_TOLERANCE_M: f64 = 1.0e-9;
 /// Largest relative difference between `mass_kg` and density x area x thickness.
-const MASS_TOLERANCE: f64 = 1.0e-3;
+pub(super) const MASS_TOLERANCE: f64 = 1.0e-3;
 
 impl Checker<'_> {
     pub(super) fn bodies(&mut self) {

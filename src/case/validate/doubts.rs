@@ -1,7 +1,7 @@
 //! Cases that can be run and whose numbers would mean little: nothing holds the material, a barrier is loose or too thin for the
 //! grid, PIC takes the motion.
 
-use super::bodies::has_geometry;
+use super::bodies::{MASS_TOLERANCE, has_geometry};
 use super::walls::narrow_openings;
 use super::{Problem, text, text_down, toml_text};
 use crate::case::boundary::{Boundary, ContactKind, Shape};
@@ -24,6 +24,7 @@ pub(super) fn doubts(case: &Case) -> Vec<Problem> {
         let at = KeyPath::top("bodies").index(index);
         found.extend(loose(case, &at, body));
         found.extend(thin(case, &at, body));
+        found.extend(filled_beside(case, &at, body));
     }
     found
 }
@@ -70,6 +71,20 @@ fn loose(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
         value: String::new(),
         allowed: "a boundary with contact = \"bonded\" that reaches a barrier, unless it may slide away".to_owned(),
         fix: format!("add [[boundaries]] with contact = \"bonded\" and bodies = [\"{}\"]", body.name),
+    })
+}
+
+/// A square lattice that carries another mass than the body, by more than `mass_kg` may be off.
+fn filled_beside(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
+    let ([length, height], lattice) = (body.size_m(), body.lattice(&case.grid));
+    let filled: f64 = (0..2).map(|d| lattice.counts[d] * lattice.spacing_m[d]).product();
+    let share = filled / (length * height);
+    ((share - 1.0).abs() > MASS_TOLERANCE).then(|| Problem {
+        path: at.key("name"),
+        what: format!("the particles of `{}` carry {} times its mass", body.name, text(share)),
+        value: String::new(),
+        allowed: "cells that divide both sides, or grid.filling = \"fitted\"".to_owned(),
+        fix: "use grid.filling = \"fitted\"".to_owned(),
     })
 }
 
