@@ -65,6 +65,8 @@ pub mod constitutive;
 pub mod contact;
 #[cfg(test)]
 mod directions_tests;
+#[cfg(test)]
+mod fuzz_tests;
 pub mod gauge;
 pub mod grid;
 pub mod lanes;

@@ -5,7 +5,7 @@
 use super::{Context, Failure};
 use checkdam::case::{Case, Integration};
 use checkdam::output::{OutputError, Table};
-use checkdam::study::{PlannedRun, Runs, Study, StudyError, one, plan, run};
+use checkdam::study::{PlannedRun, Runs, Study, StudyError, TRUSTED, one, plan, run};
 use checkdam_verification::report::quoted;
 use std::num::NonZero;
 
@@ -99,11 +99,12 @@ impl Record {
 }
 
 /// The line of a table of one run, with the columns of a header. A table has the quantities that one of its runs has: what the run
-/// lacks is an empty cell, and what the header lacks is added to the line, which then differs from any on record.
+/// lacks is an empty cell, and what the header lacks is added to the line, which then differs from any on record. Whether a run is to be
+/// trusted is no number of it: records that were made before that was said go without.
 fn as_in(header: &str, one: &str) -> Result<String, Failure> {
     let table = Table::parse(one, "a run")?;
     let wanted: Vec<&str> = header.split(',').collect();
-    let more = table.names().iter().map(String::as_str).filter(|name| !wanted.contains(name));
+    let more = table.names().iter().map(String::as_str).filter(|name| !wanted.contains(name) && *name != TRUSTED);
     let cells = wanted.iter().copied().chain(more).map(|name| {
         let cell = if table.names().iter().any(|n| n == name) { table.cells(name)?.remove(0) } else { String::new() };
         Ok(quoted(&cell))

@@ -19,10 +19,26 @@ pub struct Grid {
     /// Particles in a full cell. Default: `4`. Allowed: 1, 4, 9 or 16. Example: `9`.
     #[serde(default = "default_particles_per_cell")]
     pub particles_per_cell: u32,
+    /// How the lattice of particles meets the edges of a body. Default: `"fitted"`. Example: `"square"`.
+    #[serde(default)]
+    pub filling: Filling,
     /// Place of a node, `[x, y]`. Another place says how much a result owes to the grid's. Default: `[0.0, 0.0]`.
     /// Allowed: each from -h to h, where h is `spacing_m`. Example: `[0.004, -0.002]`.
     #[serde(default)]
     pub origin_m: [f64; 2],
+}
+
+/// How the lattice of particles meets the edges of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Filling {
+    /// Its spacing is fitted to each side, so that it ends where the body ends and carries the body's mass.
+    #[default]
+    Fitted,
+    /// Its spacing is that of the cells. Where this does not divide a side, the particles carry another mass than the body: with half
+    /// a particle too many, 1.3 % more in four recorded runs of the rigid barrier at 60 degrees, which are kept as they were.
+    Square,
 }
 
 fn default_particles_per_cell() -> u32 {

@@ -25,24 +25,30 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
 use thiserror::Error;
 
 pub use boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide, OpeningKind, Shape, Wall};
 pub use contact::{BodyContact, GapKind, NormalKind};
 pub use gauges::{Gauges, Window};
 pub use geometry::direction;
-pub use grid::{Domain, Grid};
+pub use grid::{Domain, Filling, Grid};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
-    Body, Case, Gravity, Integration, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run, Settle,
-    SideWalls, Stages, Tilt,
+    Body, Case, Gravity, Integration, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run,
+    Settle, SideWalls, Stages, Tilt,
 };
-pub use validate::{Findings, Problem, validate};
+#[cfg(test)]
+pub(crate) use validate::AGENTS;
+pub use validate::{Findings, Problem, too_few_cells, validate};
 
-use report::{Diagnostic, Level, Source};
+use parse::Format;
+use report::{Diagnostic, Level, Source, printable};
 pub(crate) use suggest::did_you_mean;
 
+/// So many problems are told of one file, each with its line.
+const MOST_REPORTS: usize = 50;
 /// Longer files are not case files, bytes.
 const LONGEST_FILE: u64 = 4 << 20;
 
@@ -81,16 +87,21 @@ pub fn file_name(name: &str) -> String {
 
 /// Reads and checks a case file.
 pub fn load(path: &Path) -> Result<LoadedCase, CaseError> {
-    let name = path.display().to_string();
-    let bytes = read(path).map_err(|(what, fix)| {
-        let diagnostic = Diagnostic { what, span: None, allowed: "the path of a case file, NAME.toml".to_owned(), fix };
+    parse(&read_as(&CASE, path)?, &path.display().to_string())
+}
+
+/// The text of a file that should be of this format.
+pub(crate) fn read_as(format: &Format, path: &Path) -> Result<String, CaseError> {
+    read(format, path).map_err(|(what, fix)| {
+        let allowed = format!("the path of a {}, NAME.toml", format.kind);
+        let name = path.display().to_string();
+        let diagnostic = Diagnostic { what, span: None, allowed, fix };
         CaseError::Unreadable(Source { name: &name, text: "" }.render(Level::Error, &diagnostic))
-    })?;
-    parse(&bytes, &name)
+    })
 }
 
 /// The text of a file, or what is wrong and what to do.
-fn read(path: &Path) -> Result<String, (String, String)> {
+fn read(format: &Format, path: &Path) -> Result<String, (String, String)> {
     let name = path.display();
     let failed = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound => {
@@ -107,9 +118,10 @@ fn read(path: &Path) -> Result<String, (String, String)> {
     }
     let mut bytes = Vec::new();
     File::open(path).and_then(|file| file.take(LONGEST_FILE + 1).read_to_end(&mut bytes)).map_err(failed)?;
-    let not_a_case = "give a case file; results, meshes and images are not input".to_owned();
+    let kind = format.kind;
+    let not_a_case = format!("give a {kind}; results, meshes and images are not input");
     if bytes.len() as u64 > LONGEST_FILE {
-        return Err((format!("{name} is longer than {} MiB and no case file", LONGEST_FILE >> 20), not_a_case));
+        return Err((format!("{name} is longer than {} MiB and no {kind}", LONGEST_FILE >> 20), not_a_case));
     }
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
@@ -117,33 +129,60 @@ fn read(path: &Path) -> Result<String, (String, String)> {
     })
 }
 
+/// The case file, before its keys are read.
+const CASE: Format = Format {
+    kind: "case file",
+    page: "docs/reference/case.md",
+    required: &["title", "gravity", "grid", "domain", "materials", "bodies", "stages"],
+    misplaced: structure::misplaced,
+};
+/// The study file.
+pub(crate) const STUDY: Format = Format {
+    kind: "study file",
+    page: "docs/reference/study.md",
+    required: &["title", "cases"],
+    misplaced: structure::misplaced_in_study,
+};
+
 /// Checks the text of a case file; `name` stands for the file in reports.
 pub fn parse(text: &str, name: &str) -> Result<LoadedCase, CaseError> {
-    let source = Source { name, text };
-    let render = |level, diagnostics: &[Diagnostic]| -> Vec<String> {
-        diagnostics.iter().map(|diagnostic| source.render(level, diagnostic)).collect()
-    };
-    let (mut case, document) = parse::case_and_document(&source)
-        .map_err(|diagnostics| CaseError::Malformed(joined(name, &render(Level::Error, &diagnostics))))?;
+    let (mut case, warnings) = parse_as(&CASE, text, name, validate)?;
+    case.resolve();
+    Ok(LoadedCase { case, warnings })
+}
 
-    let findings = validate(&case);
+/// Reads a text as `T` and checks it; with reports of what looks like a mistake.
+pub(crate) fn parse_as<T: DeserializeOwned>(
+    format: &Format,
+    text: &str,
+    name: &str,
+    check: impl FnOnce(&T) -> Findings,
+) -> Result<(T, Vec<String>), CaseError> {
+    let source = Source { name, text };
+    let (value, document) = parse::document(format, &source)
+        .map_err(|diagnostics| CaseError::Malformed(joined(&source, diagnostics, Vec::new())))?;
+    let findings = check(&value);
     let place = |problems: &[Problem]| -> Vec<Diagnostic> {
         problems.iter().map(|problem| source.diagnose(&document, problem)).collect()
     };
+    let warnings = place(&findings.warnings);
     if !findings.problems.is_empty() {
-        let mut diagnostics = place(&findings.problems);
-        diagnostics.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
-        let report = joined(name, &render(Level::Error, &diagnostics));
+        let report = joined(&source, place(&findings.problems), warnings);
         return Err(CaseError::Invalid { report, problems: findings.problems });
     }
-    case.resolve();
-    Ok(LoadedCase { case, warnings: render(Level::Warning, &place(&findings.warnings)) })
+    Ok((value, warnings.iter().take(MOST_REPORTS).map(|d| source.render(Level::Warning, d)).collect()))
 }
 
-fn joined(name: &str, reports: &[String]) -> String {
-    let mut report = reports.join("\n");
-    if reports.len() > 1 {
-        report += &format!("\nerror: {} problems in {name}\n", reports.len());
+/// The reports in the order of the text, as one; warnings last.
+fn joined(source: &Source, mut errors: Vec<Diagnostic>, warnings: Vec<Diagnostic>) -> String {
+    errors.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
+    let shown = errors.iter().take(MOST_REPORTS).map(|d| source.render(Level::Error, d));
+    let warned = warnings.iter().take(MOST_REPORTS).map(|d| source.render(Level::Warning, d));
+    let mut report = shown.chain(warned).collect::<Vec<_>>().join("\n");
+    let count = errors.len();
+    if count > 1 {
+        let first = if count > MOST_REPORTS { format!("; the first {MOST_REPORTS} are above") } else { String::new() };
+        report += &format!("\nerror: {count} problems in {}{first}\n", printable(source.name));
     }
     report
 }

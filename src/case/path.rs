@@ -33,6 +33,13 @@ impl KeyPath {
         self.with(PathSegment::Index(index))
     }
 
+    /// The path of another key in the table that holds this one.
+    #[must_use]
+    pub fn beside(&self, key: &str) -> Self {
+        let parent = self.0.split_last().map_or(&[][..], |(_, parent)| parent);
+        KeyPath(parent.to_vec()).key(key)
+    }
+
     /// Whether this path is `prefix` or lies inside it.
     pub fn is_in(&self, prefix: &KeyPath) -> bool {
         self.0.starts_with(&prefix.0)

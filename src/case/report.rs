@@ -167,6 +167,6 @@ impl Source<'_> {
 }
 
 /// Text without control characters, which could garble a terminal; each becomes a space, so that columns stay.
-fn printable(text: &str) -> String {
+pub fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

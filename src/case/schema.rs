@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::boundary::Boundary;
 use super::contact::BodyContact;
 use super::gauges::Gauges;
-use super::grid::{Domain, Grid};
+use super::grid::{Domain, Filling, Grid};
 use super::material::Material;
 use crate::boundary::BoundaryContact;
 use crate::simulation::{OpenedVolume, PicShare, Scheme};
@@ -78,8 +78,9 @@ pub struct Gravity {
 
 /// A rectangle filled with one material at the start.
 ///
-/// Particles sit on a square lattice of spacing h / sqrt(particles per cell) in the axes of the rectangle, the first one
-/// half a spacing inside its lower left corner.
+/// Particles sit on a lattice in the axes of the rectangle, the first one half a spacing inside its lower left corner. The
+/// spacing is h / sqrt(particles per cell), or the nearest to it that fills the side, so that the particles carry the mass of
+/// the rectangle and end where it ends; `grid.filling = "square"` leaves it at the former.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -91,7 +92,7 @@ pub struct Body {
     /// Left and right edge before rotation. Allowed: `[low, high]` with low < high; the body inside the domain, outside
     /// boundaries that act on it (but clamps) and other bodies, or touching them. Example: `[-0.2, 0.0]`.
     pub x_m: [f64; 2],
-    /// Lower and upper edge before rotation. Allowed: as `x_m`; both sides at least half the spacing of the particles.
+    /// Lower and upper edge before rotation. Allowed: as `x_m`; both sides at least the spacing of the particles.
     /// Example: `[0.0, 0.5]`.
     pub y_m: [f64; 2],
     /// Rotation about the corner (`x_m[0]`, `y_m[0]`), counter-clockwise. Default: `0.0`. Allowed: -360 to 360.
@@ -295,18 +296,51 @@ impl Body {
         self.particles_per_cell.unwrap_or(grid.particles_per_cell)
     }
 
-    /// Distance between neighbouring particles at the start, m.
+    /// Distance between neighbouring particles in cells that are filled evenly, m.
     pub fn particle_spacing_m(&self, grid: &Grid) -> f64 {
         grid.spacing_m / f64::from(self.particles_per_cell(grid)).sqrt()
+    }
+
+    /// The lattice that fills the rectangle: as many particles along each side as come nearest to the wanted spacing, and their
+    /// distances, which fill the side to its end. None along a side that is shorter than the spacing.
+    pub fn lattice(&self, grid: &Grid) -> Lattice {
+        let wanted = self.particle_spacing_m(grid);
+        let sides = self.size_m().map(|length| {
+            if grid.filling == Filling::Square {
+                // Points at (i + 1/2) s inside the length L: i + 1/2 <= L/s, with room for rounding.
+                return ((length / wanted + 0.5 + 1.0e-9).floor().max(0.0), wanted);
+            }
+            let count = (length / wanted).round();
+            let off = (count * wanted - length).abs() / length;
+            if length < wanted * (1.0 - FILLED_TO) {
+                (0.0, wanted)
+            } else if off <= FILLED_TO {
+                (count, wanted)
+            } else {
+                (count, length / count)
+            }
+        });
+        Lattice { counts: sides.map(|s| s.0), spacing_m: sides.map(|s| s.1) }
     }
 
     /// Particles along the length and the height of the rectangle as whole numbers. Kept as floats because a mistyped case
     /// may ask for more than an integer holds.
     pub fn particle_counts(&self, grid: &Grid) -> [f64; 2] {
-        let spacing = self.particle_spacing_m(grid);
-        // Points at (i + 1/2) s inside the length L: i + 1/2 <= L/s, with room for rounding.
-        self.size_m().map(|length| (length / spacing + 0.5 + 1.0e-9).floor().max(0.0))
+        self.lattice(grid).counts
     }
+}
+
+/// Spacings that fill a side to this share of it count as filling it: cell sizes are written with few digits, 0.0133333 m for a
+/// seventy-fifth.
+const FILLED_TO: f64 = 1.0e-5;
+
+/// The particles of a body at the start, in the axes of its rectangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// How many along its length and its height, as whole numbers.
+    pub counts: [f64; 2],
+    /// Their distances, m; the first particle lies half of them inside the lower left corner.
+    pub spacing_m: [f64; 2],
 }
 
 impl Case {

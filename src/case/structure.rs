@@ -3,7 +3,7 @@
 
 use toml::de::{DeTable, DeValue};
 
-use super::path::KeyPath;
+use super::path::{KeyPath, PathSegment};
 use super::validate::Problem;
 
 const TABLES: [&str; 9] =
@@ -13,7 +13,7 @@ const LISTS: [&str; 3] = ["bodies", "boundaries", "contacts"];
 const LISTS_OF_GAUGES: [&str; 1] = ["windows"];
 const PAIRS: [&str; 7] = ["x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "window_x_m", "window_y_m"];
 
-/// Tables, lists of tables and pairs of numbers that are something else.
+/// Tables, lists of tables and pairs of numbers of a case that are something else.
 pub fn misplaced(root: &DeTable<'_>) -> Vec<Problem> {
     let mut problems = Vec::new();
     for (key, value) in root.iter() {
@@ -26,6 +26,41 @@ pub fn misplaced(root: &DeTable<'_>) -> Vec<Problem> {
         }
     }
     problems
+}
+
+const TABLES_OF_STUDIES: [&str; 4] = ["base", "sample", "replicates", "figure"];
+const LISTS_OF_STUDIES: [(&str, &str); 2] = [("axis", "level"), ("variant", "")];
+const LISTS_OF_SAMPLES: [(&str, &str); 2] = [("range", ""), ("choice", "option")];
+
+/// Tables and lists of tables of a study that are something else.
+pub fn misplaced_in_study(root: &DeTable<'_>) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for (key, value) in root.iter() {
+        let (key, value) = (key.get_ref().as_ref(), value.get_ref());
+        let path = KeyPath::top(key);
+        if TABLES_OF_STUDIES.contains(&key) {
+            let table = expect_table(&path, value, &mut problems);
+            for (key, value) in table.filter(|_| key == "sample").into_iter().flat_map(|table| table.iter()) {
+                let key = key.get_ref().as_ref();
+                nested_lists(LISTS_OF_SAMPLES, &path, key, value.get_ref(), &mut problems);
+            }
+        } else {
+            nested_lists(LISTS_OF_STUDIES, &KeyPath::default(), key, value, &mut problems);
+        }
+    }
+    problems
+}
+
+/// A list of tables that may hold another one.
+fn nested_lists(known: [(&str, &str); 2], at: &KeyPath, key: &str, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
+    let Some((_, inner)) = known.into_iter().find(|(outer, _)| *outer == key) else { return };
+    let path = at.key(key);
+    list(&path, value, problems);
+    for (index, element) in value.as_array().into_iter().flatten().enumerate() {
+        if let Some(value) = element.get_ref().as_table().and_then(|table| table.get(inner)) {
+            list(&path.index(index).key(inner), value.get_ref(), problems);
+        }
+    }
 }
 
 fn tables(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
@@ -54,6 +89,11 @@ fn tables(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
 }
 
 fn list(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
+    let keys = path.0.iter().filter_map(|segment| match segment {
+        PathSegment::Key(key) => Some(key.as_str()),
+        PathSegment::Index(_) => None,
+    });
+    let header = keys.collect::<Vec<_>>().join(".");
     let tables = value.as_array().filter(|array| array.iter().all(|value| value.get_ref().is_table()));
     match tables {
         Some(array) => {
@@ -67,8 +107,8 @@ fn list(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
             path: path.clone(),
             what: format!("{path} is not a list of tables"),
             value: String::new(),
-            allowed: format!("any number of [[{path}]] tables"),
-            fix: format!("write [[{path}]], with double brackets, above each of them"),
+            allowed: format!("any number of [[{header}]] tables"),
+            fix: format!("write [[{header}]], with double brackets, above each of them"),
         }),
     }
 }

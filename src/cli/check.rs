@@ -1,7 +1,7 @@
 //! `checkdam check`.
 
 use super::progress::remaining;
-use super::{load, say, tell, use_threads};
+use super::{ENDED_EARLY, load, say, tell, use_threads};
 use checkdam::run::scene;
 use checkdam::simulation::Simulation;
 use std::path::Path;
@@ -52,10 +52,8 @@ pub fn check(path: &Path, threads: Option<u16>) -> ExitCode {
         None
     });
     if let Some(failure) = failure {
-        tell!("warning: a run would fail: {failure}");
-        if trial == 0 {
-            return ExitCode::SUCCESS;
-        }
+        tell!("error: a run would fail: {failure}");
+        return ExitCode::from(ENDED_EARLY);
     }
     let per_step = start.elapsed().as_secs_f64() / f64::from(trial.max(1));
     say!(

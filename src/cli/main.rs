@@ -2,6 +2,7 @@
 
 mod check;
 mod console;
+mod memory;
 mod progress;
 mod run;
 mod study;
@@ -20,8 +21,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const CHECK_FAILED: u8 = 1;
 /// Exit code when the input is at fault, and nothing was computed.
 const BAD_INPUT: u8 = 2;
-/// Exit code when a run failed or was stopped; what was computed is in its folder.
+/// Exit code when a run failed or was stopped (what was computed is in its folder), when a check finds that it would fail, or when the
+/// output could not be written.
 const ENDED_EARLY: u8 = 3;
+/// Exit code when a run is done and its numbers are not to be trusted.
+const NOT_TRUSTED: u8 = 4;
 
 /// Force of dry granular flow on barriers, by the material point method.
 ///
@@ -43,7 +47,8 @@ Exit codes:
   0  done
   1  a check of the verification ladder or of a validation failed
   2  the input is at fault; nothing was written
-  3  the run failed or was stopped; what was computed is in its folder"
+  3  the run failed, was stopped or, on check, would fail; or the output could not be written
+  4  the run is done and not to be trusted: summary.toml begins with the reasons"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -89,6 +94,9 @@ enum Command {
         /// Folder for the results [default: out/<name of the study file>]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Check the study and the case of every run, and say what would run, without running it
+        #[arg(long)]
+        check: bool,
         /// Runs at a time; any number gives the same table [default: all processors]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
@@ -118,12 +126,19 @@ enum Command {
 
 /// Parses the command line and does what it says.
 pub fn main() -> ExitCode {
-    match Cli::parse().command {
+    let code = match Cli::parse().command {
         Command::Run { case, out, threads } => run::run(&case, out, threads),
         Command::Check { case, threads } => check::check(&case, threads),
-        Command::Study { study, out, threads } => study::study(&study, out, threads),
+        Command::Study { study, out, check, threads } => study::study(&study, out, threads, check),
         Command::Verify { rungs, out } => verify::verify(&rungs, &out),
         Command::Validate { names, studies, out } => validate::validate(&names, studies, &out),
+    };
+    match console::failure() {
+        Some(error) if code == ExitCode::SUCCESS => {
+            tell!("error: the output could not be written: {error}");
+            ExitCode::from(ENDED_EARLY)
+        }
+        _ => code,
     }
 }
 
@@ -133,6 +148,10 @@ fn load(path: &std::path::Path) -> Result<checkdam::case::Case, ExitCode> {
         Ok(loaded) => {
             for warning in &loaded.warnings {
                 tell!("{}\n", warning.trim_end());
+            }
+            if let Some(missing) = memory::missing(&loaded.case) {
+                tell!("error: {missing}");
+                return Err(ExitCode::from(BAD_INPUT));
             }
             Ok(loaded.case)
         }

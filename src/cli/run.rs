@@ -1,7 +1,7 @@
 //! `checkdam run`.
 
 use super::progress::Display;
-use super::{BAD_INPUT, ENDED_EARLY, load, say, stop_on_ctrl_c, tell, use_threads};
+use super::{BAD_INPUT, ENDED_EARLY, NOT_TRUSTED, load, say, stop_on_ctrl_c, tell, use_threads};
 use checkdam::run::{self, Summary, files};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -42,7 +42,11 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
                 steps.0,
                 steps.0 as f64 * steps.1 as f64 / seconds / 1e6
             );
-            if stopped { ExitCode::from(ENDED_EARLY) } else { ExitCode::SUCCESS }
+            match () {
+                () if stopped => ExitCode::from(ENDED_EARLY),
+                () if summary.trusted => ExitCode::SUCCESS,
+                () => ExitCode::from(NOT_TRUSTED),
+            }
         }
         Err(error) => {
             tell!("error: {error}");
@@ -54,6 +58,10 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
 
 /// The main results, for someone who looks at the terminal only.
 fn report(summary: &Summary, directory: &Path) {
+    if !summary.trusted {
+        say!("NOT TO BE TRUSTED:");
+        summary.reasons.iter().for_each(|reason| say!("  {reason}"));
+    }
     say!("{}: {}", summary.case.title, summary.status);
     for f in &summary.front {
         say!(

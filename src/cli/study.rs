@@ -3,21 +3,23 @@
 use super::console::{say, tell};
 use super::progress::StudyDisplay;
 use super::{BAD_INPUT, ENDED_EARLY, stop_on_ctrl_c};
+use checkdam::case::Case;
 use checkdam::output::write_text;
-use checkdam::study::{Runs, Study, StudyError, draw, plan, run};
+use checkdam::study::{PlannedRun, Runs, Study, StudyError, draw, plan, run};
 use checkdam_validation::{VALIDATIONS, Validation};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 
-pub fn study(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode {
+pub fn study(path: &Path, out: Option<PathBuf>, threads: Option<u16>, check: bool) -> ExitCode {
     let folder = out.unwrap_or_else(|| Path::new("out").join(path.file_stem().unwrap_or_default()));
-    if let Some(validation) = of_the_project(path) {
+    if let Some(validation) = of_the_project(path).filter(|_| !check) {
         super::use_threads(threads);
         return super::validate::validate(&[validation.name.to_string()], true, &folder);
     }
-    match work_off(path, &folder, threads) {
+    let done = if check { look_over(path) } else { work_off(path, &folder, threads) };
+    match done {
         Ok(code) => code,
         Err(error) => {
             tell!("{}", error.to_string().trim_end());
@@ -36,10 +38,34 @@ fn of_the_project(path: &Path) -> Option<&'static Validation> {
     VALIDATIONS.iter().find(|v| !path.exists() && v.name == name && !v.study.is_empty())
 }
 
+/// So many runs are listed.
+const LISTED: usize = 10;
+
+/// Checks a study and every case that it makes, and says what would run.
+fn look_over(path: &Path) -> Result<ExitCode, StudyError> {
+    let study = Study::load(path)?;
+    let plan = planned(&study, path)?;
+    say!("{}: {} is valid: {} runs", path.display(), study.title, plan.len());
+    for run in plan.iter().take(LISTED) {
+        say!("  {}", run.what);
+    }
+    if plan.len() > LISTED {
+        say!("  and {} more", plan.len() - LISTED);
+    }
+    let steps = |case: &Case| case.stages.run.end_time_s / case.time_step_estimate_s();
+    let work = |run: &PlannedRun| run.case.particle_count_estimate() * steps(&run.case);
+    say!("  at most {:.1e} particle-steps in all, besides settling", plan.iter().map(work).sum::<f64>());
+    Ok(ExitCode::SUCCESS)
+}
+
+fn planned(study: &Study, path: &Path) -> Result<Vec<PlannedRun>, StudyError> {
+    let beside = path.parent().unwrap_or(Path::new(""));
+    plan(study, &path.display().to_string(), &|name| std::fs::read_to_string(beside.join(name)))
+}
+
 fn work_off(path: &Path, folder: &Path, threads: Option<u16>) -> Result<ExitCode, StudyError> {
     let study = Study::load(path)?;
-    let beside = path.parent().unwrap_or(Path::new(""));
-    let plan = plan(&study, &path.display().to_string(), &|name| std::fs::read_to_string(beside.join(name)))?;
+    let plan = planned(&study, path)?;
     std::fs::create_dir_all(folder)
         .map_err(|source| checkdam::output::OutputError::Create { path: folder.to_path_buf(), source })?;
     let table = folder.join("runs.csv");
@@ -64,6 +90,10 @@ fn work_off(path: &Path, folder: &Path, threads: Option<u16>) -> Result<ExitCode
     if !finished.is_complete() {
         say!("the same command goes on where it stopped");
         return Ok(ExitCode::from(ENDED_EARLY));
+    }
+    let doubted = plan.iter().filter(|run| runs.get(run).is_some_and(|row| row.trusted == "false")).count();
+    if doubted > 0 {
+        say!("{doubted} of them are not to be trusted; the column `trusted` says which, and a run of its own says why");
     }
     if finished.rows > finished.failed
         && let Some(figure) = &study.figure

@@ -36,7 +36,7 @@ const RUNS_HEAD: &str = "
 ## Columns of `runs.csv`
 
 A row is a run. The first columns are `case`, `factor`, `label` and `replicate`. A column for each axis and each range of the sample
-follows, then `key` (of all inputs) and `ended` (at rest, at the end time, or why it failed). The numbers come last. Those that no
+follows, then `key` (of all inputs), `ended` (at rest, at the end time, or why it failed) and `trusted` (as in `summary.toml`). The numbers come last. Those that no
 run has are left out, as those of a barrier that bends where there is none.
 
 ";

@@ -2,6 +2,7 @@
 
 use super::means::{arrival, impulse, late_mean, smoothed_peak, time_to_static};
 use super::records::HistoryRow;
+use super::verdict::Kind;
 use crate::gauge::BarrierGauge;
 use serde::Serialize;
 
@@ -98,22 +99,24 @@ pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow]) -> Option<Ba
 }
 
 impl BarrierResults {
-    /// Warns of what is odd about the barrier called `name`.
-    pub(super) fn warn(&self, name: &str, warn: &mut impl FnMut(String)) {
-        if self.overtopped_kg > 0.0 {
-            warn(format!("{:.4} kg went over {name}", self.overtopped_kg));
-        }
-        if self.passed_under_kg > 0.0 {
-            warn(format!("{:.4} kg went under {name}", self.passed_under_kg));
-        }
+    /// Notes what is odd about the barrier called `name`; less than `little` (kg) that went through it is little.
+    pub(super) fn note(&self, name: &str, little: f64, note: &mut impl FnMut(Kind, String)) {
         let through = self.passed_kg - self.overtopped_kg - self.passed_under_kg;
         if through > 1e-9 * self.passed_kg {
-            warn(format!(
+            let kind = if through > little { Kind::Through } else { Kind::Passed };
+            let text = format!(
                 "{through:.4} kg went through {name}, between its foot and its crest: it does not hold the flow, and its force is too low"
-            ));
+            );
+            note(kind, text);
+        }
+        if self.overtopped_kg > 0.0 {
+            note(Kind::Passed, format!("{:.4} kg went over {name}", self.overtopped_kg));
+        }
+        if self.passed_under_kg > 0.0 {
+            note(Kind::Passed, format!("{:.4} kg went under {name}", self.passed_under_kg));
         }
         if self.arrival_s.is_none() {
-            warn(format!("the flow did not reach {name}"));
+            note(Kind::NotReached, format!("the flow did not reach {name}"));
         }
     }
 }

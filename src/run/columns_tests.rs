@@ -75,3 +75,11 @@ fn a_further_barrier_has_the_columns_of_its_forces() {
         assert_eq!(of_all[k], *value, "{name}");
     }
 }
+
+/// Names that a boundary may not have are those of the other columns of the momentum table.
+#[test]
+fn no_boundary_is_called_like_another_agent() {
+    let columns = MOMENTUM.header(&Names::default());
+    let agents: Vec<&str> = columns.iter().filter_map(|name| name.strip_suffix("_x_n_s")).collect();
+    assert_eq!(agents, crate::case::AGENTS);
+}

@@ -76,6 +76,19 @@ impl Experiment {
         &self.gauges.windows
     }
 
+    /// One step, as at the start of a run.
+    #[cfg(test)]
+    pub(crate) fn step_for_tests(&mut self) -> Result<(), RunError> {
+        self.simulation.step()?;
+        self.read_step();
+        Ok(())
+    }
+
+    /// The case.
+    pub(super) fn case(&self) -> &Case {
+        &self.case
+    }
+
     /// Gauges of the case.
     pub fn gauges(&self) -> &crate::case::Gauges {
         &self.case.gauges

@@ -22,6 +22,7 @@ mod stage;
 pub mod structure;
 pub(crate) mod summary;
 mod table;
+mod verdict;
 
 pub use columns::columns;
 pub use experiment::Experiment;
@@ -29,6 +30,7 @@ pub use records::{Recorder, Records};
 pub use stage::{Progress, RunError, Stage};
 pub use summary::Summary;
 pub use table::{ColumnText, TableText};
+pub use verdict::{Kind as NoteKind, Note};
 
 use crate::case::Case;
 use std::path::Path;

@@ -33,9 +33,8 @@ pub fn gravity(case: &Case, angle_deg: f64) -> [f64; 2] {
 
 fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
     let material = &case.materials[&b.material];
-    let spacing = b.particle_spacing_m(&case.grid);
-    let volume = spacing * spacing * case.grid.thickness_m;
-    let [nx, ny] = b.particle_counts(&case.grid);
+    let case::Lattice { counts: [nx, ny], spacing_m: [along, across] } = b.lattice(&case.grid);
+    let volume = along * across * case.grid.thickness_m;
     let (sin, cos) = (libm::sin(b.rotation_deg.to_radians()), libm::cos(b.rotation_deg.to_radians()));
     let mut particles = Vec::with_capacity((nx * ny) as usize);
     for i in 0..nx as usize {
@@ -43,7 +42,7 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
             let id = particles.len() as u32;
             let moved =
                 |axis: u64| b.jitter * (2.0 * uniform(u64::from(b.jitter_seed), 2 * u64::from(id) + axis) - 1.0);
-            let (u, v) = ((i as f64 + 0.5 + moved(0)) * spacing, (j as f64 + 0.5 + moved(1)) * spacing);
+            let (u, v) = ((i as f64 + 0.5 + moved(0)) * along, (j as f64 + 0.5 + moved(1)) * across);
             let x = [b.x_m[0] + cos * u - sin * v, b.y_m[0] + sin * u + cos * v];
             particles.push(Particle { v: b.velocity_m_per_s, ..Particle::at_rest(id, x) });
         }
@@ -54,7 +53,8 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
         point_mass: material.density_kg_per_m3 * volume,
         point_volume: volume,
         points_per_direction: f64::from(b.particles_per_cell(&case.grid)).sqrt().round() as usize,
-        point_spacing: spacing,
+        // The side of a square of the same area; exact where the spacing fills both sides.
+        point_spacing: if along == across { along } else { (along * across).sqrt() },
         weightless: b.weightless,
         between_side_walls: case.side_walls.act_on(&b.name),
         implicit: b.integration == case::Integration::Implicit,
@@ -200,5 +200,62 @@ mod tests {
         let mass = |n: usize, b: &Body| n as f64 * b.point_mass;
         assert!((mass(*more, of_body) / mass(*barrier, of_grid) - 1.0).abs() < 1e-12);
         assert_eq!(cases[1].particle_count_estimate(), 19240.0);
+    }
+
+    /// The recorded runs of the rigid barrier at 60 degrees on 20 mm have half a row of points too many.
+    #[test]
+    fn a_square_lattice_is_that_of_the_cells() {
+        let text = include_str!("../../validation/barrier/60deg_rigid_calibrated.toml");
+        let text = text.replacen("spacing_m = 0.01 ", "spacing_m = 0.02 ", 1);
+        let text = text.replacen("particles_per_cell = 4", "particles_per_cell = 9", 1);
+        let square = text.replacen("[grid]", "[grid]\nfilling = \"square\"", 1);
+        let mass = |text: &str| {
+            let loaded = case::parse(text, "60deg.toml").unwrap_or_else(|e| panic!("{e}"));
+            let scene = build(&loaded.case);
+            (scene.bodies[0].1.len() as f64 * scene.bodies[0].0.point_mass, loaded.warnings.join(""))
+        };
+        let [(fitted, none), (more, warned)] = [mass(&text), mass(&square)];
+        assert!((fitted - 30.0).abs() < 1e-9 && !none.contains("times its mass"), "{fitted} {none}");
+        assert!(
+            (more - 30.0 * 38.0 / 37.5).abs() < 1e-9 && warned.contains("carry 1.01333 times its mass"),
+            "{more} {warned}"
+        );
+    }
+
+    /// Whatever the cells: the points carry the mass of the drawing, and their own share of it ends where the drawing ends.
+    #[test]
+    fn points_carry_the_mass_of_the_drawing_and_end_where_it_ends() {
+        let flume = include_str!("../../validation/flume/40deg.toml");
+        for (h, per_cell, counts) in [
+            ("0.01", 4, [40, 100]),
+            ("0.03", 4, [13, 33]),
+            ("0.016", 4, [25, 63]),
+            ("0.07", 4, [6, 14]),
+            ("0.0133333", 4, [30, 75]),
+            ("0.04", 9, [15, 38]),
+            ("0.17", 1, [1, 3]),
+        ] {
+            let text = flume.replacen("spacing_m = 0.01 ", &format!("spacing_m = {h} "), 1);
+            let text = text.replacen("particles_per_cell = 4", &format!("particles_per_cell = {per_cell}"), 1);
+            // The walls of this case are thin for the larger cells, and its window is.
+            let text = text.replace("boundary_contact = \"nodes\"", "boundary_contact = \"surface\"");
+            let case = case::parse(&text, "flume.toml").unwrap_or_else(|e| panic!("{e}")).case;
+            let scene = build(&case);
+            let (body, points) = &scene.bodies[0];
+            assert_eq!(points.len(), counts[0] * counts[1], "{h}");
+            let mass = points.len() as f64 * body.point_mass;
+            assert!((mass / 30.0 - 1.0).abs() < 2.1e-5, "{h}: {mass} kg");
+            let volume = points.len() as f64 * body.point_volume;
+            assert!((volume * 1500.0 / mass - 1.0).abs() < 1e-12, "{h}");
+            let spacing = case.bodies[0].lattice(&case.grid).spacing_m;
+            for (axis, [low, high]) in [[-0.2, 0.0], [0.0, 0.5]].into_iter().enumerate() {
+                let ends = points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| {
+                    [a.min(p.x[axis] - 0.5 * spacing[axis]), b.max(p.x[axis] + 0.5 * spacing[axis])]
+                });
+                assert!((ends[0] - low).abs() < 1e-5 && (ends[1] - high).abs() < 1e-5, "{h}: {ends:?}");
+            }
+            let sides = [0.2, 0.5];
+            assert!((0..2).all(|d| spacing[d] * counts[d] as f64 <= sides[d] * (1.0 + 1.1e-5)), "{h}");
+        }
     }
 }

@@ -3,6 +3,7 @@
 use super::gauges::Barrier;
 use super::means::{archived_peak, arrival};
 use super::records::{EnergyRow, Records};
+use super::verdict::Kind;
 use crate::gauge::StructureSample;
 use crate::ledger::EnergyBalance;
 use serde::Serialize;
@@ -122,21 +123,50 @@ fn imbalance(samples: &[(f64, StructureSample)]) -> f64 {
 }
 
 impl StructureResults {
-    /// Warns of what is odd about the barrier called `name`.
-    pub(super) fn warn(&self, name: &str, warn: &mut impl FnMut(String)) {
+    /// Notes what is odd about the barrier called `name`.
+    pub(super) fn note(&self, name: &str, note: &mut impl FnMut(Kind, String)) {
         if self.torn {
-            warn(format!(
+            let text = format!(
                 "{name} has torn numerically: {:.3} s after release its points were {:.2} cells too far apart {:.3} m above \
                  its foot; forces and deflections after that mean nothing (finer cells, or a stiffer barrier)",
                 self.gap_time_s, self.gap_cells, self.gap_height_m
-            ));
+            );
+            note(Kind::Torn, text);
         }
         if self.imbalance_1 > BALANCED {
-            warn(format!(
+            let text = format!(
                 "contact, clamp and inertia of {name} miss each other by {:.1e} of their sum",
                 self.imbalance_1
-            ));
+            );
+            note(Kind::Balance, text);
         }
+    }
+}
+
+/// A barrier about which nothing is odd.
+#[cfg(test)]
+pub(super) fn for_tests() -> StructureResults {
+    StructureResults {
+        height_m: 0.5,
+        peak_50hz_n: 0.0,
+        arrival_kinetic_1: 0.0,
+        arrival_dissipated_1: 0.0,
+        tip_max_m: 0.0,
+        peak_deflection_m: 0.0,
+        peak_deflection_height_m: 0.0,
+        peak_barrier_velocity_m_per_s: 0.0,
+        tip_final_m: 0.0,
+        tip_final_1: 0.0,
+        peak_clamp_n: 0.0,
+        peak_clamp_time_s: 0.0,
+        static_clamp_n: 0.0,
+        static_clamp_moment_n_m: 0.0,
+        imbalance_1: 0.0,
+        penetration_max_m: 0.0,
+        gap_cells: 0.0,
+        gap_time_s: 0.0,
+        gap_height_m: 0.0,
+        torn: false,
     }
 }
 

@@ -8,7 +8,7 @@ use super::means::arrival;
 use super::records::{HistoryRow, Records};
 use super::stage::End;
 use super::structure::{self, StructureResults};
-use super::{balances, barrier, deposit};
+use super::{balances, barrier, deposit, verdict};
 use crate::case::Case;
 use serde::Serialize;
 
@@ -16,11 +16,15 @@ use serde::Serialize;
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Summary {
+    /// Whether the numbers are to be trusted: false if there is a reason not to.
+    pub trusted: bool,
+    /// Why not, with numbers; empty if they are.
+    pub reasons: Vec<String>,
     /// How the run ended.
     pub status: String,
     /// Version of checkdam.
     pub checkdam_version: String,
-    /// What deserves a second look.
+    /// What else deserves a second look, and takes nothing from the numbers.
     pub warnings: Vec<String>,
     /// Discretisation and stepping.
     pub stepping: Stepping,
@@ -116,22 +120,18 @@ impl Summary {
             End::Time => "completed: end time reached before rest",
             End::Stopped => "stopped by the user; everything computed until then is here",
         };
-        let mut summary = Self::build(case, experiment, records, status.into());
-        if end != End::Rest {
-            let text =
-                "the material was not seen to come to rest: static values are means over the last 0.3 s, no more";
-            summary.warnings.push(text.into());
-        }
-        summary
+        Self::build(case, experiment, records, status.into(), Some(end))
     }
 
     /// Of a run that failed.
     pub fn failed(case: &Case, experiment: &Experiment, records: &Records, error: &str) -> Self {
-        Self::build(case, experiment, records, format!("failed: {error}"))
+        Self::build(case, experiment, records, format!("failed: {error}"), None)
     }
 
-    fn build(case: &Case, experiment: &Experiment, records: &Records, status: String) -> Self {
+    fn build(case: &Case, experiment: &Experiment, records: &Records, status: String, end: Option<End>) -> Self {
         let mut summary = Self {
+            trusted: false,
+            reasons: Vec::new(),
             status,
             checkdam_version: env!("CARGO_PKG_VERSION").into(),
             warnings: Vec::new(),
@@ -146,7 +146,11 @@ impl Summary {
             front: passages(case, records),
             case: case.clone(),
         };
-        summary.warn(experiment);
+        let (reasons, warnings): (Vec<_>, Vec<_>) =
+            verdict::notes(&summary, experiment, records, end).into_iter().partition(|note| note.kind.doubts());
+        summary.trusted = reasons.is_empty();
+        summary.reasons = reasons.into_iter().map(|note| note.text).collect();
+        summary.warnings = warnings.into_iter().map(|note| note.text).collect();
         summary
     }
 
@@ -155,57 +159,6 @@ impl Summary {
         // Every type here maps to TOML; a failure would be a programming error, shown in place.
         toml::to_string(self)
             .unwrap_or_else(|e| format!("status = {:?}\n# the summary could not be written: {e}\n", self.status))
-    }
-
-    fn warn(&mut self, experiment: &Experiment) {
-        let sim = experiment.simulation();
-        let h = sim.spacing();
-        let mut warn = |text: String| self.warnings.push(text);
-        if self.energy.energy_residual_1.abs() > 0.02 {
-            warn(format!(
-                "energy does not close: {:.2} % of E0 is not accounted for",
-                100.0 * self.energy.energy_residual_1
-            ));
-        }
-        if self.momentum.momentum_closure_1 > 1e-10 {
-            warn(format!("momentum does not close: {:.1e} of all impulses", self.momentum.momentum_closure_1));
-        }
-        if self.momentum.penetration_m > h {
-            warn(format!(
-                "material lay {:.1} cells deep inside a boundary or the barrier",
-                self.momentum.penetration_m / h
-            ));
-        }
-        if self.momentum.outflow_kg > 0.0 {
-            warn(format!("{:.4} kg left the domain", self.momentum.outflow_kg));
-        }
-        if let Some(b) = &self.barrier {
-            b.warn("the barrier", &mut warn);
-        }
-        if let Some([most, allowed]) = sim.contact_sweeps()
-            && most >= allowed
-        {
-            warn(format!("contact with a body in implicit steps was not settled after {allowed} sweeps of a step"));
-        }
-        if let Some(s) = &self.structure {
-            s.warn("the barrier", &mut warn);
-        }
-        for further in &self.further_barriers {
-            let name = format!("barrier `{}`", further.name);
-            further.barrier.iter().for_each(|b| b.warn(&name, &mut warn));
-            further.structure.iter().for_each(|s| s.warn(&name, &mut warn));
-        }
-        if let Some(d) = &self.deposit
-            && d.mobilised_1.abs() < 0.9
-        {
-            warn(format!(
-                "the base mobilises {:.0} % of its friction at rest: any force between {:.1} and {:.1} N is in equilibrium, \
-                 and which one it is depends on the history",
-                100.0 * d.mobilised_1,
-                d.equilibrium_limits_n[0],
-                d.equilibrium_limits_n[1]
-            ));
-        }
     }
 }
 

@@ -117,7 +117,9 @@ pub fn one(run: &PlannedRun, progress: &mut run::ProgressFn) -> Row {
         Err(error) => return Row::failed(&error.to_string()),
     };
     match pool.install(|| run::run_in_memory(&run.case, progress)) {
-        Ok((_, _, summary)) => Row::new(summary.status.trim_start_matches("completed: "), &measure(&summary)),
+        Ok((_, _, summary)) => {
+            Row::new(summary.status.trim_start_matches("completed: "), summary.trusted, &measure(&summary))
+        }
         Err(error) => Row::failed(&error.to_string()),
     }
 }

@@ -1,9 +1,8 @@
 //! The study file.
 
 use super::change::Change;
-use super::quantities::QUANTITIES;
-use super::sampling::MOST_DIMENSIONS;
-use crate::case::did_you_mean;
+use super::check::check;
+use crate::case::{self, CaseError};
 use serde::Deserialize;
 use std::path::Path;
 use toml::Value;
@@ -136,7 +135,8 @@ impl Variant {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Sample {
-    /// How many. Allowed: a whole number above 0; the sample needs 1 to 12 ranges and choices. Example: `64`.
+    /// How many. Allowed: a whole number above 0; the sample needs 1 to 12 ranges and choices, and a study has at most
+    /// 100000 runs. Example: `64`.
     pub points: usize,
     /// Ranges of numbers.
     #[serde(default, rename = "range")]
@@ -200,7 +200,8 @@ pub struct Option_ {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Replicates {
-    /// How many besides the design point itself. Allowed: a whole number, 0 or more. Example: `4`.
+    /// How many besides the design point itself. Allowed: a whole number, 0 or more; at most 100000 runs in a study. Example:
+    /// `4`.
     pub count: usize,
     /// Largest displacement of the grid, in either direction. Default: `0.0`. Allowed: 0 to 1. Example: `0.5`.
     #[serde(default)]
@@ -228,37 +229,18 @@ pub struct Figure {
     pub logarithmic: bool,
 }
 
-/// Why a study cannot be run.
+/// Why a study cannot be run. `Display` gives the report for the user, several lines long.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// A file cannot be read.
-    #[error(
-        "error: {name} cannot be read: {source}\n  fix: give the path of a study file, NAME.toml; cases are named relative to it"
-    )]
-    Unreadable {
-        /// The file.
-        name: String,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error("{0}")]
+    Unreadable(String),
     /// The text is not TOML, or its keys or types are not those of a study.
-    #[error("error in {name}: {report}")]
-    Malformed {
-        /// The file.
-        name: String,
-        /// The line and what is wrong with it.
-        report: String,
-    },
+    #[error("{0}")]
+    Malformed(String),
     /// The values make no sense.
-    #[error("error in {name}: {what}\n  fix: {fix}")]
-    Invalid {
-        /// The file.
-        name: String,
-        /// What is wrong.
-        what: String,
-        /// What to do.
-        fix: String,
-    },
+    #[error("{0}")]
+    Invalid(String),
     /// A change makes a case that cannot be run.
     #[error("error in {name}: {run} cannot be run\n{report}")]
     Case {
@@ -283,76 +265,31 @@ impl Study {
     /// # Errors
     /// The file cannot be read, or [`Study::parse`] refuses it.
     pub fn load(path: &Path) -> Result<Self, StudyError> {
-        let name = path.display().to_string();
-        let text =
-            std::fs::read_to_string(path).map_err(|source| StudyError::Unreadable { name: name.clone(), source })?;
-        Self::parse(&text, &name)
+        let text = case::read_as(&case::STUDY, path).map_err(|e| StudyError::Unreadable(e.to_string()))?;
+        Self::parse(&text, &path.display().to_string())
     }
 
     /// Reads the text of a study file; `name` stands for it in reports.
     ///
     /// # Errors
-    /// [`StudyError::Malformed`] and [`StudyError::Invalid`].
+    /// [`StudyError::Malformed`] and [`StudyError::Invalid`], with the line, what is allowed and what to do.
     pub fn parse(text: &str, name: &str) -> Result<Self, StudyError> {
-        let study: Self = toml::from_str(text)
-            .map_err(|e| StudyError::Malformed { name: name.into(), report: e.to_string().trim_end().into() })?;
-        match study.objection() {
-            None => Ok(study),
-            Some((what, fix)) => Err(StudyError::Invalid { name: name.into(), what, fix }),
-        }
+        let (study, _) = case::parse_as(&case::STUDY, text, name, check).map_err(|error| match error {
+            CaseError::Unreadable(report) => StudyError::Unreadable(report),
+            CaseError::Malformed(report) => StudyError::Malformed(report),
+            CaseError::Invalid { report, .. } => StudyError::Invalid(report),
+        })?;
+        Ok(study)
     }
 
-    /// What is wrong and what to do about it.
-    fn objection(&self) -> Option<(String, String)> {
-        let say = |what: &str, fix: &str| Some((what.to_string(), fix.to_string()));
-        if self.cases.is_empty() {
-            return say("it has no case", "cases = [\"NAME.toml\"], relative to the study file");
-        }
-        for axis in &self.axes {
-            if axis.is_empty() || axis.fields.is_empty() != axis.values.is_empty() {
-                return say(
-                    &format!("axis `{}` has no value or no field", axis.name),
-                    "values = [...], fields = [\"grid.spacing_m\"]",
-                );
-            }
-        }
-        let names: Vec<&str> = self.columns();
-        if let Some(k) = (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
-            return say(&format!("`{}` is the name of two things that vary", names[k]), "give each its own name");
-        }
-        if let Some(figure) = &self.figure {
-            // Every other column of the table is text.
-            let numbers = || names.iter().copied().chain(QUANTITIES.iter().map(|q| q.name));
-            for (key, column) in [("x", &figure.x), ("y", &figure.y)] {
-                if !numbers().any(|name| name == column) {
-                    let what = format!("figure.{key} = \"{column}\" is neither an axis of the study nor a quantity");
-                    return say(&what, &did_you_mean(column, numbers().collect::<Vec<_>>()));
-                }
-            }
-        }
-        if let Some(sample) = &self.sample {
-            let dimensions = sample.ranges.len() + sample.choices.len();
-            if sample.points == 0 || dimensions == 0 || dimensions > MOST_DIMENSIONS {
-                let fix = format!("points > 0, and 1 to {MOST_DIMENSIONS} of [[sample.range]] and [[sample.choice]]");
-                return say("the sample is empty or has too many dimensions", &fix);
-            }
-            for r in &sample.ranges {
-                let low = if r.logarithmic { 0.0 } else { f64::NEG_INFINITY };
-                if !(r.low > low && r.low < r.high && r.high.is_finite()) || r.fields.is_empty() {
-                    let what = format!("range `{}` from {} to {} is empty, or it has no field", r.name, r.low, r.high);
-                    return say(&what, "low < high, both positive on a logarithmic range, and fields = [...]");
-                }
-            }
-            if let Some(c) = sample.choices.iter().find(|c| c.options.is_empty()) {
-                return say(&format!("choice `{}` has no option", c.name), "add [[sample.choice.option]]");
-            }
-        }
-        if let Some(r) = &self.replicates
-            && !(0.0..=1.0).contains(&r.grid_offset_cells)
-        {
-            return say(&format!("replicates.grid_offset_cells = {}", r.grid_offset_cells), "0 to 1");
-        }
-        None
+    /// How many runs it asks for.
+    pub fn run_count(&self) -> f64 {
+        let base = f64::from(u8::from(self.axes.is_empty() && self.sample.is_none() || !self.variants.is_empty()));
+        let combinations: f64 = self.axes.iter().map(|axis| axis.len() as f64).product();
+        let axes = if self.axes.is_empty() { 0.0 } else { combinations };
+        let sample = self.sample.as_ref().map_or(0.0, |s| s.points as f64);
+        let repetitions = 1.0 + self.replicates.as_ref().map_or(0.0, |r| r.count as f64);
+        self.cases.len() as f64 * (base + self.variants.len() as f64 + axes + sample) * repetitions
     }
 
     /// Columns of what varies, besides factor and label.

@@ -8,6 +8,7 @@
 //! Elsewhere: parameter sweeps, sensitivity analysis, design of experiments.
 
 mod change;
+mod check;
 mod engine;
 mod figure;
 mod file;
@@ -23,4 +24,4 @@ pub use engine::{Finished, Progress, one, run};
 pub use figure::draw;
 pub use file::{Axis, Choice, Figure, Option_ as ChoiceOption, Range, Replicates, Sample, Study, StudyError, Variant};
 pub use plan::{PlannedRun, plan};
-pub use table::{Row, Runs};
+pub use table::{Row, Runs, TRUSTED};

@@ -58,19 +58,29 @@ pub fn plan(
     let points = points(study, columns.len());
     let mut runs = Vec::new();
     for file in &study.cases {
-        let text = read(file).map_err(|source| StudyError::Unreadable { name: file.clone(), source })?;
-        let table: Table = toml::from_str(&text)
-            .map_err(|e| StudyError::Malformed { name: file.clone(), report: e.to_string().trim_end().into() })?;
+        let text = read(file).map_err(|source| {
+            StudyError::Unreadable(format!(
+                "error: {file} cannot be read: {source}\n --> {name}\n  = fix: cases are named relative to the study file"
+            ))
+        })?;
+        let table: Table = toml::from_str(&text).map_err(|e| {
+            StudyError::Malformed(case::parse(&text, file).err().map_or(e.to_string(), |e| e.to_string()))
+        })?;
         let case_name = file.rsplit('/').next().unwrap_or(file).trim_end_matches(".toml").to_string();
         for point in &points {
             for replicate in 0..=study.replicates.as_ref().map_or(0, |r| r.count) {
                 let what = describe(&columns, &case_name, point, replicate);
                 let mut changed = table.clone();
                 let fail = |report: String| StudyError::Case { name: name.into(), run: what.clone(), report };
+                let bad_path = |what: String| {
+                    fail(format!(
+                        "  {what}\n  = fix: write the path as in the case, names of list elements included: bodies.sand.mass_kg"
+                    ))
+                };
                 for change in std::iter::once(&study.base).chain(&point.changes) {
-                    change.apply(&mut changed).map_err(&fail)?;
+                    change.apply(&mut changed).map_err(&bad_path)?;
                 }
-                repetition(study, replicate, &changed).apply(&mut changed).map_err(&fail)?;
+                repetition(study, replicate, &changed).apply(&mut changed).map_err(&bad_path)?;
                 let (case, key) = parse(&changed, file, name, &what)?;
                 runs.push(PlannedRun {
                     number: runs.len(),

@@ -13,28 +13,33 @@ const DIGITS: usize = 9;
 /// Columns before those of what varies.
 const FIRST: [&str; 4] = ["case", "factor", "label", "replicate"];
 /// Columns between what varies and the quantities.
-const MIDDLE: [&str; 2] = ["key", "ended"];
+const MIDDLE: [&str; 3] = ["key", "ended", TRUSTED];
+/// Whether the numbers of a run are to be trusted: true, false, or empty where it failed.
+pub const TRUSTED: &str = "trusted";
 
 /// A finished run: how it ended and what was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// "at rest", "end time", or why it failed.
     pub ended: String,
+    /// "true" or "false": whether its numbers are to be trusted; empty if it failed.
+    pub trusted: String,
     /// Values of [`QUANTITIES`], as text; empty cells where there is none.
     pub values: Vec<String>,
 }
 
 impl Row {
     /// Of numbers.
-    pub fn new(ended: &str, numbers: &[f64]) -> Self {
+    pub fn new(ended: &str, trusted: bool, numbers: &[f64]) -> Self {
         let text = |x: &f64| if x.is_finite() { significant(*x, DIGITS) } else { String::new() };
-        Self { ended: ended.into(), values: numbers.iter().map(text).collect() }
+        Self { ended: ended.into(), trusted: trusted.to_string(), values: numbers.iter().map(text).collect() }
     }
 
     /// Of a run that failed.
     pub fn failed(reason: &str) -> Self {
         let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
-        Self { ended: format!("failed: {reason}"), values: vec![String::new(); QUANTITIES.len()] }
+        let values = vec![String::new(); QUANTITIES.len()];
+        Self { ended: format!("failed: {reason}"), trusted: String::new(), values }
     }
 
     /// Whether the run came to its end.
@@ -73,7 +78,7 @@ impl Runs {
             for record in reader.records().filter_map(Result::ok) {
                 let value = |place: &Option<usize>| place.and_then(|k| record.get(k)).unwrap_or_default().to_string();
                 let values = places.iter().map(value).collect();
-                let row = Row { ended: record[at + 1].to_string(), values };
+                let row = Row { ended: record[at + 1].to_string(), trusted: record[at + 2].to_string(), values };
                 if row.is_complete() {
                     runs.rows.insert(record[at].to_string(), row);
                 }
@@ -114,7 +119,7 @@ impl Runs {
                 let replicate = run.replicate.to_string();
                 let first = [&run.case_name, &run.factor, &run.label, &replicate].map(String::as_str);
                 let values = run.values.iter().map(String::as_str);
-                let middle = [run.key.as_str(), row.ended.as_str()];
+                let middle = [run.key.as_str(), row.ended.as_str(), row.trusted.as_str()];
                 let measured = row.values.iter().zip(&used).filter(|(_, used)| **used).map(|(v, _)| v.as_str());
                 writer.write_record(first.into_iter().chain(values).chain(middle).chain(measured))?;
             }

@@ -90,10 +90,10 @@ fn quantities_that_no_run_has_are_left_out_of_the_table() {
     let mut table = Runs::open(&path, &study.columns());
     let mut numbers = vec![f64::NAN; QUANTITIES.len()];
     (numbers[2], numbers[5]) = (1.5, -2.0);
-    table.insert(&runs[0], Row::new("at rest", &numbers));
+    table.insert(&runs[0], Row::new("at rest", true, &numbers));
     table.save(&runs).expect("a table");
     let text = std::fs::read_to_string(&path).expect("a table");
-    let header = format!("key,ended,{},{}", QUANTITIES[2].name, QUANTITIES[5].name);
+    let header = format!("key,ended,trusted,{},{}", QUANTITIES[2].name, QUANTITIES[5].name);
     assert!(text.lines().next().is_some_and(|l| l.ends_with(&header)), "{text}");
     // And it is read back as it was.
     let again = Runs::open(&path, &study.columns());
@@ -222,4 +222,69 @@ fn a_study_goes_on_where_it_stopped() {
     // What another build has left is not taken over.
     std::fs::write(path.with_extension("program"), "another").expect("a file");
     assert!(plan.iter().all(|r| Runs::open(&path, &study.columns()).get(r).is_none()));
+}
+
+/// A cell size written without a decimal point has a grid that can be moved as well.
+#[test]
+fn a_whole_cell_size_is_moved_by_replicates() {
+    let case = CASE
+        .replace("spacing_m = 0.05", "spacing_m = 1")
+        .replace("[-0.1, 0.1]", "[-4, 4]")
+        .replace("[0.0, 0.2]", "[0, 8]");
+    let case = case.replace("[-0.5, 0.5]", "[-9, 9]").replace("[-0.2, 0.6]", "[-2, 20]");
+    let study = "title = \"a\"\ncases = [\"drop.toml\"]\n[replicates]\ncount = 1\ngrid_offset_cells = 0.5\n";
+    let study = Study::parse(study, "study.toml").expect("a study");
+    let runs = plan(&study, "study.toml", &|_| Ok(case.clone())).expect("a plan");
+    assert_eq!(runs[0].case.grid.origin_m, [0.0, 0.0]);
+    assert!(runs[1].case.grid.origin_m.iter().any(|o| *o != 0.0), "{:?}", runs[1].case.grid);
+}
+
+/// Refusals of studies have the form of those of cases.
+#[test]
+fn a_study_that_cannot_be_is_refused_with_its_line_and_a_fix() {
+    for (from, to, parts) in [
+        (
+            "title = \"stiff",
+            "titel = \"stiff",
+            vec!["titel is not a key of a study file", "did you mean `title`?", "study.toml:2:"],
+        ),
+        ("cases = [\"drop.toml\"]", "cases = []", vec!["it has no case", "study.toml:3:"]),
+        ("[[axis]]", "[axis]", vec!["axis is not a list of tables", "write [[axis]]"]),
+        ("values = [1.0e5, 2.0e5]", "values = 1.0e5", vec!["a list", "study.toml:9:"]),
+        ("values = [1.0e5, 2.0e5]", "", vec!["axis `young_pa` has no value or no field"]),
+        (
+            "[[variant]]",
+            "[replicates]\ncount = 9000000000000000000\n[[variant]]",
+            vec!["3.6e19 runs", "replicates.count", "at most 1e5 runs"],
+        ),
+        ("[[variant]]", "[replicates]\ncount = -1\n[[variant]]", vec!["count = -1", "a whole number, not negative"]),
+        (
+            "[[variant]]",
+            "[replicates]\ncount = 1\njitter = 0.7\n[[variant]]",
+            vec!["replicates.jitter = 0.7", "0 to 0.5"],
+        ),
+        (
+            "[[variant]]",
+            "[figure]\nx = \"young\"\ny = \"end_s\"\n[[variant]]",
+            vec!["figure.x = \"young\"", "did you mean `young_pa`?"],
+        ),
+        (
+            "[[variant]]",
+            "[sample]\npoints = 1000000\n[[sample.range]]\nname = \"a\"\nfields = [\"numerics.cfl\"]\nlow = 0.1\nhigh = 0.2\n[[variant]]",
+            vec!["1.0e6 runs"],
+        ),
+        (
+            "[[variant]]",
+            "[sample]\npoints = 4\n[[sample.range]]\nname = \"a\"\nfields = [\"numerics.cfl\"]\nlow = 0.3\nhigh = 0.2\n[[variant]]",
+            vec!["range `a` from 0.3 to 0.2 is empty", "low = 0.2, high = 0.3"],
+        ),
+        ("label = \"rough\"", "label = \"rough\\u001b[31m\"", vec!["without control characters"]),
+    ] {
+        assert!(STUDY.contains(from), "{from}");
+        let error = planned(&STUDY.replacen(from, to, 1)).expect_err(to).to_string();
+        for part in parts.into_iter().chain([" = fix: ", "--> study.toml"]) {
+            let part = if part.contains("replicates.count") { "count = 9" } else { part };
+            assert!(error.contains(part), "no {part:?} in\n{error}");
+        }
+    }
 }

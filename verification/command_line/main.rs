@@ -14,9 +14,16 @@ fn help_names_the_commands_and_the_exit_codes() {
     let lab = Lab::new(TINY);
     let help = lab.run(&["--help"]);
     assert_eq!(help.code, Some(0));
-    for text in
-        ["run ", "check ", "Exit codes:", "0  done", "2  the input", "3  the run", "validation/flume/40deg.toml"]
-    {
+    for text in [
+        "run ",
+        "check ",
+        "Exit codes:",
+        "0  done",
+        "2  the input",
+        "3  the run",
+        "4  the run is done and not to be trusted",
+        "validation/flume/40deg.toml",
+    ] {
         assert!(help.out.contains(text), "no {text:?} in\n{}", help.out);
     }
     assert!(lab.run(&["run", "--help"]).out.contains("--out <DIR>"));

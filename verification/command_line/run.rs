@@ -91,7 +91,10 @@ fn a_check_tells_what_would_run() {
 fn a_run_leaves_everything_it_promises() {
     let lab = Lab::new(TINY);
     let outcome = lab.run(&["run", "case.toml"]);
-    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    // It ends before it is at rest: the numbers are not to be trusted, and that is said first.
+    assert_eq!(outcome.code, Some(4), "{outcome:?}");
+    assert!(outcome.out.starts_with("NOT TO BE TRUSTED:\n  "), "{}", outcome.out);
+    assert!(lab.read("out/case/summary.toml").starts_with("trusted = false\nreasons = ["));
     for text in ["Tiny flume: completed", "peak force", "energy:", "momentum closes", "results in out/case"] {
         assert!(outcome.out.contains(text), "no {text:?} in\n{}", outcome.out);
     }
@@ -131,7 +134,7 @@ fn the_number_of_threads_changes_no_byte() {
         let divided = experiment.simulation().parts(threads.parse().expect("a number"));
         assert_eq!(divided, parts, "parts for {threads} threads: one division compared with itself proves nothing");
         let outcome = lab.run(&["run", "case.toml", "--out", threads, "--threads", threads]);
-        assert_eq!(outcome.code, Some(0), "{outcome:?}");
+        assert_eq!(outcome.code, Some(4), "{outcome:?}");
     }
     let reference = lab.contents("1");
     for threads in ["2", "3", "8"] {
@@ -157,7 +160,8 @@ fn a_run_that_blows_up_says_where_and_why() {
     let rows = lab.rows("results");
     assert!(rows["energy.csv"] > 0 && rows["field.csv"] > 0, "{rows:?}");
     assert!(lab.path("results/flow_snapshots.svg").exists(), "what can be drawn is drawn");
-    assert!(lab.run(&["check", "case.toml"]).err.contains("a run would fail"));
+    let check = lab.run(&["check", "case.toml"]);
+    assert!(check.code == Some(3) && check.err.contains("error: a run would fail"), "{check:?}");
 }
 
 #[test]
@@ -170,4 +174,40 @@ fn a_body_that_does_not_settle_is_an_error() {
         assert!(outcome.err.contains(text), "no {text:?} in\n{}", outcome.err);
     }
     assert!(lab.status("results").starts_with("failed: "));
+}
+
+#[test]
+fn a_run_that_is_to_be_trusted_says_so_by_its_exit_code() {
+    let lab = Lab::new(
+        &changed("end_time_s = 0.4\nstop_at_rest = false", "end_time_s = 4")
+            .replace("spacing_m = 0.05", "spacing_m = 0.01")
+            .replace("vtk_interval_s = 0.05", "vtk_interval_s = 0"),
+    );
+    let outcome = lab.run(&["run", "case.toml"]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(!outcome.out.contains("TRUSTED"), "{}", outcome.out);
+    assert!(lab.read("out/case/summary.toml").starts_with("trusted = true\nreasons = []\n"));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_output_that_cannot_be_written_is_an_error() {
+    let lab = Lab::new(TINY);
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = lab.command(&["check", "case.toml"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{output:?}");
+    assert!(String::from_utf8_lossy(&output.stderr).contains("the output could not be written"));
+}
+
+#[cfg(unix)]
+#[test]
+fn no_escape_code_reaches_the_terminal() {
+    let lab = Lab::new(TINY);
+    let name = "\u{1b}[31mred.toml";
+    fs::write(lab.path(name), TINY).unwrap();
+    fs::write(lab.path("title.toml"), changed("Tiny flume", "\\u001b[31mred")).unwrap();
+    for file in [name, "title.toml"] {
+        let outcome = lab.run(&["check", file]);
+        assert!(!outcome.out.contains('\u{1b}') && !outcome.err.contains('\u{1b}'), "{outcome:?}");
+    }
 }

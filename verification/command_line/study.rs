@@ -36,6 +36,10 @@ fn a_study_ends_in_one_table_and_a_figure() {
     let text = lab.read("out/friction/runs.csv");
     let rows: Vec<Vec<&str>> = text.lines().map(|l| l.split(',').collect()).collect();
     assert_eq!(rows[0][..6], ["case", "factor", "label", "replicate", "base_friction_1", "barrier_friction_1"]);
+    // They end before the sand is at rest.
+    assert_eq!(rows[0][6..9], ["key", "ended", "trusted"]);
+    assert!(rows[1..].iter().all(|row| row[8] == "false"), "{text}");
+    assert!(outcome.out.contains("4 of them are not to be trusted"), "{}", outcome.out);
     let varied: Vec<&[&str]> = rows[1..].iter().map(|r| &r[4..6]).collect();
     assert_eq!(varied, [["0.2", "0"], ["0.2", "0.2"], ["0.4", "0"], ["0.4", "0.2"]]);
     // A rougher base is slower.
@@ -48,6 +52,20 @@ fn a_study_ends_in_one_table_and_a_figure() {
     let again = lab.run(&["study", "friction.toml", "--threads", "1"]);
     assert_eq!(again.code, Some(0), "{again:?}");
     assert!(before == lab.contents("out"));
+}
+
+#[test]
+fn a_study_is_checked_without_running_it() {
+    let lab = lab(STUDY);
+    let outcome = lab.run(&["study", "friction.toml", "--check"]);
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    for text in ["is valid: 4 runs", "case, axis, base_friction_1 0.4, barrier_friction_1 0.2", "particle-steps"] {
+        assert!(outcome.out.contains(text), "no {text:?} in\n{}", outcome.out);
+    }
+    assert!(!lab.path("out").exists(), "a check writes nothing");
+    fs::write(lab.path("friction.toml"), STUDY.replace("[0.2, 0.4]", "[0.2, -0.4]")).unwrap();
+    let outcome = lab.run(&["study", "friction.toml", "--check"]);
+    assert!(outcome.code == Some(2) && outcome.err.contains("friction = -0.4"), "{outcome:?}");
 }
 
 #[test]

@@ -6,6 +6,16 @@ use crate::case::parse;
 /// Text to replace, by what, text on the line that must be reported (empty: the file as a whole), parts of the report.
 pub type Bad = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
+/// All of them.
+pub const ALL: [&[Bad]; 6] = [
+    VALUES_OUT_OF_RANGE,
+    NAN_AND_INFINITY_ANYWHERE,
+    NAMES_AND_COMBINATIONS,
+    GEOMETRY_AND_TIMES,
+    SYNTAX_KEYS_AND_TYPES,
+    ACCEPTED_BEFORE,
+];
+
 pub fn check(table: &[Bad]) {
     for (replace, by, at, contains) in table {
         let text = changed(replace, by);
@@ -113,7 +123,7 @@ const GEOMETRY_AND_TIMES: &[Bad] = &[
     ("1.0, 1.5]", "1.5, 1.0]", "1.5, 1.0]", &["field_times_s[7] = 1.0", "the one before is 1.5", "sort"]),
     ("1.0, 1.5]", "1.0, 15]", "1.0, 15]", &["time <= stages.run.end_time_s = 6"]),
     ("mass_kg = 30", "mass_kg = 33", "mass_kg = 33", &["mass_kg = 33 differs", "30 kg", "density_kg_per_m3 = 1650", "y_m = [0, 0.55]"]),
-    ("x_m = [-0.2, 0.0]", "x_m = [-0.2, -0.199]", "-0.199]", &["body `sand` holds no particle"]),
+    ("x_m = [-0.2, 0.0]", "x_m = [-0.2, -0.199]", "-0.199]", &["body `sand` is thinner than a particle", "grid.spacing_m = 0.002 or less"]),
     ("spacing_m = 0.01", "spacing_m = 2.0e-5", "2.0e-5", &["1.0e9 particles", "at most 2.0e7 particles", "spacing_m >= 0.00015", "8.8e9 grid cells", "use spacing_m = 0.00027 or more"]),
     ("end_time_s = 6.0", "end_time_s = 6.0e6", "6.0e6", &["time steps", "or less"]),
 ];
@@ -171,4 +181,62 @@ fn syntax_keys_and_types() {
     let crlf = FLUME.replace('\n', "\r\n").replacen("poisson = 0.3", "poisson = 0.5", 1);
     assert!(report_of(&crlf).contains("poisson = 0.5"));
     assert!(!report_of(&crlf).contains('\r'));
+}
+
+#[rustfmt::skip]
+const ACCEPTED_BEFORE: &[Bad] = &[
+    ("name = \"back wall\"", "name = \"side walls\"", "side walls", &["boundaries[1].name = \"side walls\"", "no other column", "write \"side walls 1\""]),
+    ("name = \"back wall\"", "name = \"Gravity\"", "Gravity", &["boundaries[1].name = \"Gravity\""]),
+    ("name = \"back wall\"", "name = \"BASE\"", "BASE", &["letters and digits differ", "boundaries[0] is `base`"]),
+    ("name = \"back wall\"", "name = \"back\\u001b[31m\"", "back\\u001b", &["without control characters", "write \"back[31m\""]),
+    ("title = \"", "title = \"\\u0007", "title = ", &["without control characters"]),
+    ("thickness_m = 0.1\ncontact = \"coulomb\"", "material_side = \"right\"\ncontact = \"coulomb\"", "material_side = \"right\"\ncontact = \"coulomb\"", &["looks away from all material", "use material_side = \"left\""]),
+    ("duration_s = 0.5", "duration_s = 1e308", "1e308", &["stages.tilt.duration_s = 1e308", "1e30"]),
+    ("duration_s = 0.5", "duration_s = 1e7", "1e7", &["1.0e11 time steps", "use duration_s = "]),
+    ("max_time_s = 5.0", "max_time_s = 5e7", "5e7", &["stages.settle.max_time_s", "time steps"]),
+    ("x_m = [-0.2, 0.0]", "x_m = [-1e308, 1e308]", "[-1e308", &["bodies[0].x_m[0] = -1e308", "check the unit"]),
+    ("x_m = [-0.4, 1.8]", "x_m = [-0.4, 1e15]", "1e15", &["domain.x_m[1] = 1e15"]),
+    ("x_m = [-0.4, 1.8]", "x_m = [-0.4, 1e8]", "1e8", &["1.0e10 cells away", "subtract a constant"]),
+    ("height_m = 0.6                     # [paper]", "height_m = 1e8 # high", "1e8 # high", &["1e6 cells", "use height_m = 10000 or less"]),
+    ("barrier = \"barrier\"", "barrier = [\"barrier\"]", "[\"barrier\"]", &["one value, not a list", "without brackets: \"barrier\""]),
+    ("x_m = [-0.2, 0.0]", "x_m = [-0.2, 0.00012345678]", "0.00012345678", &["overlaps boundary `gate`", "use x_m = [-0.2, 0]"]),
+];
+
+#[test]
+fn what_was_accepted_before() {
+    check(ACCEPTED_BEFORE);
+    // All that is missing at the top, not only the first of it.
+    let report = report_of("title = \"a\"\n[grid]\nspacing_m = 1\nthickness_m = 1\n");
+    for key in ["gravity", "domain", "materials", "bodies", "stages"] {
+        assert!(report.contains(&format!("error: {key} is missing")), "{report}");
+    }
+    assert!(report.contains("5 problems"), "{report}");
+    // Warnings stand beside errors.
+    let both = changed("poisson = 0.3", "poisson = 0.6").replacen("friction = 0.4", "friction = 22", 1);
+    let report = report_of(&both);
+    assert!(
+        report.contains("error: materials.sand.poisson") && report.contains("warning: boundaries[0].friction"),
+        "{report}"
+    );
+}
+
+/// As many keys that nobody knows as a file can hold, and as many of everything else that is compared with each other.
+#[test]
+fn long_files_are_refused_soon() {
+    let start = std::time::Instant::now();
+    let keys: String = (0..100_000).map(|k| format!("wrong_{k} = 1\n")).collect();
+    let report = report_of(&FLUME.replacen("[gravity]", &format!("{keys}[gravity]"), 1));
+    assert!(report.contains("wrong_0 is not a key") && report.len() < 100_000, "{}", report.len());
+    let many: String = (0..30_000)
+        .map(|k| {
+            format!(
+                "[[boundaries]]\nname = \"{k}\"\nkind = \"wall\"\nfoot_m = [0, 0]\nheight_m = 1\ncontact = \"rough\"\n"
+            )
+        })
+        .collect();
+    assert!(report_of(&format!("{FLUME}{many}")).contains("boundaries has 30004 elements"));
+    let outside: String = (0..100_000).map(|k| format!("{}, ", k + 10)).collect();
+    let report = report_of(&changed("stations_m = [0.3", &format!("stations_m = [{outside}0.3")));
+    assert!(report.contains("100000 problems") && report.contains("the first 50"), "{}", report.len());
+    assert!(start.elapsed().as_secs() < 30, "{:?}", start.elapsed());
 }

@@ -43,10 +43,10 @@ fn a_fence_in_contact_loads_with_its_defaults() {
     assert_eq!(parse(&text, "again.toml").expect("the same").case, loaded.case);
 }
 
-#[test]
-fn what_is_wrong_with_a_contact_is_said() {
+/// Cases with a contact that cannot be, and parts of their reports.
+pub fn wrong() -> Vec<(String, Vec<&'static str>)> {
     let line = |replace: &str, by: &str| with(&CONTACT.replacen(replace, by, 1));
-    for (text, parts) in [
+    vec![
         (line("\"sand\"]", "\"snad\"]"), vec!["contacts[0].bodies[1] = \"snad\"", "sand"]),
         (
             line("\"fence\", \"sand\"", "\"sand\", \"fence\""),
@@ -92,7 +92,12 @@ fn what_is_wrong_with_a_contact_is_said() {
             with(&CONTACT.replacen("[[contacts]]", "[contacts]", 1)),
             vec!["contacts is not a list of tables", "[[contacts]]"],
         ),
-    ] {
+    ]
+}
+
+#[test]
+fn what_is_wrong_with_a_contact_is_said() {
+    for (text, parts) in wrong() {
         let report = report_of(&text);
         println!("{report}");
         assert!(report.contains(" = fix: "), "{report}");

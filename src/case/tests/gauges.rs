@@ -23,7 +23,7 @@ fn several_bases_are_a_list() {
 }
 
 #[rustfmt::skip]
-const BASES: &[Bad] = &[
+pub const BASES: &[Bad] = &[
     (BASE, "bases = [\"floor\"]", "\"floor\"", &["gauges.bases[0] = \"floor\"", "use one of `base`, `back wall`, `gate`, `barrier`"]),
     (BASE, "bases = [\"base\", \"barier\"]", "\"barier\"", &["gauges.bases[1] = \"barier\"", "did you mean `barrier`?"]),
     (BASE, "bases = [\"base\", \"sand\"]", "\"base\", \"sand\"", &["gauges.bases[1] = \"sand\"", "one of [[boundaries]]"]),
@@ -59,11 +59,11 @@ fn windows_have_names() {
     assert_eq!(parse(&case.to_toml().expect("TOML"), "again.toml").expect("the same").case, case);
 }
 
-#[test]
-fn windows_that_cannot_be() {
+/// Cases with a window that cannot be, what stands on the line at fault, and parts of their reports.
+pub fn wrong_windows() -> Vec<(String, &'static str, Vec<&'static str>)> {
     let window = |name: &str, more: &str| format!("[[gauges.windows]]\nname = \"{name}\"\n{more}\n");
     let good = window("A b", "x_m = [0.1, 0.2]\ny_m = [0.0, 0.3]");
-    for (windows, at, parts) in [
+    let wrong = vec![
         (good.replace("0.1, 0.2", "0.2, 0.1"), "[0.2, 0.1]", vec!["gauges.windows[0].x_m", "swap the two"]),
         (good.replace("0.1, 0.2", "0.1, 3"), "[0.1, 3]", vec!["gauges.windows[0].x_m[1] = 3", "inside the domain"]),
         (good.replace("0.0, 0.3", "-0.5, 0.3"), "[-0.5, 0.3]", vec!["gauges.windows[0].y_m[0] = -0.5"]),
@@ -79,8 +79,13 @@ fn windows_that_cannot_be() {
             vec!["gauges.windows[1].name = \"a_B\"", "letters and digits differ", "rename one of the two"],
         ),
         (good.replace("[[", "[").replace("]]", "]"), "[gauges.windows]", vec!["write [[gauges.windows]]"]),
-    ] {
-        let text = with_windows(&windows);
+    ];
+    wrong.into_iter().map(|(windows, at, parts)| (with_windows(&windows), at, parts)).collect()
+}
+
+#[test]
+fn windows_that_cannot_be() {
+    for (text, at, parts) in wrong_windows() {
         let report = report_of(&text);
         println!("{report}");
         let place = if at.is_empty() { String::new() } else { format!(".toml:{}:", line_of(&text, at)) };

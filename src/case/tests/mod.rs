@@ -10,6 +10,8 @@ use crate::simulation::{PicShare, Scheme};
 
 mod bad_input;
 mod contacts;
+mod doubts;
+mod fixes;
 mod gauges;
 
 const FLUME: &str = include_str!("../../../validation/flume/40deg.toml");

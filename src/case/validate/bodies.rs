@@ -1,6 +1,6 @@
 //! Bodies: their names, materials and masses, and what they may not overlap.
 
-use super::{Checker, text};
+use super::{Checker, text, text_up};
 use crate::case::boundary::{Boundary, ContactKind, Shape};
 use crate::case::geometry::{Penetration, penetration_of_plane, penetration_of_rectangle};
 use crate::case::path::KeyPath;
@@ -10,7 +10,7 @@ use crate::case::suggest::did_you_mean;
 /// Overlap up to this depth is rounding, m.
 const OVERLAP_TOLERANCE_M: f64 = 1.0e-9;
 /// Largest relative difference between `mass_kg` and density x area x thickness.
-const MASS_TOLERANCE: f64 = 1.0e-3;
+pub(super) const MASS_TOLERANCE: f64 = 1.0e-3;
 
 impl Checker<'_> {
     pub(super) fn bodies(&mut self) {
@@ -46,10 +46,14 @@ impl Checker<'_> {
                 self.not_allowed(&at.key("weightless"), &true, allowed, fix);
             }
         }
+        let grid = self.is_clean(&KeyPath::top("grid").key("spacing_m"));
+        let boundaries = KeyPath::top("boundaries");
+        let usable: Vec<bool> =
+            (0..self.case.boundaries.len()).map(|k| grid && self.is_clean(&boundaries.index(k))).collect();
         for (index, body) in self.case.bodies.iter().enumerate().filter(|(_, body)| has_geometry(body)) {
             let at = list.index(index);
             self.inside_domain(&at, body);
-            self.clear_of_boundaries(&at, body);
+            self.clear_of_boundaries(&at, body, &usable);
             let others = self.case.bodies[..index].iter().filter(|other| has_geometry(other));
             for other in others {
                 let penetration = penetration_of_rectangle(&body.corners_m(), &other.corners_m());
@@ -77,6 +81,13 @@ impl Checker<'_> {
             let fix =
                 format!("name the bodies of boundary `{}`: bodies = [...] without `{}`", boundary.name, body.name);
             ("\"implicit\" only for a body that no boundary but clamps acts on", fix)
+        } else if self.case.bodies.iter().all(|b| b.integration == Integration::Implicit)
+            && self.case.numerics.max_time_step_s.is_none()
+        {
+            (
+                "\"implicit\" only beside a body in explicit steps, whose waves give the length of a step",
+                "remove the line".to_owned(),
+            )
         } else {
             return;
         };
@@ -103,13 +114,13 @@ impl Checker<'_> {
                 text(thickness),
                 text(actual),
             );
-            let top = body.y_m[0] + mass / (density * length * thickness);
+            let top = rounded(body.y_m[0] + mass / (density * length * thickness), height, f64::round);
             let fix = format!(
                 "materials.{}.density_kg_per_m3 = {}, or y_m = [{}, {}], or leave mass_kg out",
                 body.material,
                 text(mass / (length * height * thickness)),
-                text(body.y_m[0]),
-                text(top),
+                body.y_m[0],
+                top,
             );
             self.problem(&path, what, &mass, "equal to 0.1 %", &fix);
         }
@@ -131,15 +142,12 @@ impl Checker<'_> {
         }
     }
 
-    fn clear_of_boundaries(&mut self, at: &KeyPath, body: &Body) {
+    fn clear_of_boundaries(&mut self, at: &KeyPath, body: &Body, usable: &[bool]) {
         // A clamp is there to hold what lies in it.
         let solid = |b: &&Boundary| b.acts_on(&body.name) && b.contact != ContactKind::Bonded;
-        for (index, boundary) in self.case.boundaries.iter().enumerate().filter(|(_, b)| solid(b)) {
-            let usable = self.is_clean(&KeyPath::top("boundaries").index(index))
-                && self.is_clean(&KeyPath::top("grid").key("spacing_m"));
-            let Some(shape) = boundary.shape(&self.case.grid).filter(|_| usable) else {
-                continue;
-            };
+        let usable = self.case.boundaries.iter().zip(usable).filter(|(b, usable)| **usable && solid(b));
+        for (boundary, _) in usable {
+            let Some(shape) = boundary.shape(&self.case.grid) else { continue };
             let penetration = match shape {
                 Shape::Plane { point_m, normal_deg } => penetration_of_plane(&body.corners_m(), point_m, normal_deg),
                 Shape::Wall(wall) | Shape::Gate(wall, _) => {
@@ -160,10 +168,13 @@ impl Checker<'_> {
         let (key, edges) = if axis == 0 { ("x_m", body.x_m) } else { ("y_m", body.y_m) };
         let straight = body.rotation_deg == 0.0 && way_out[axis].abs() == 1.0;
         let fix = match cut(edges, way_out[axis] * depth_m) {
-            Some([low, high]) if straight => format!("use {key} = [{}, {}]", text(low), text(high)),
+            Some([low, high]) if straight => format!("use {key} = [{low}, {high}]"),
             _ => {
-                let [x, y] = way_out.map(|component| text(component * depth_m));
-                format!("move the body by [{x}, {y}] m")
+                let by = |component: f64| match component * depth_m {
+                    0.0 => "0".to_owned(),
+                    by => format!("{}{}", if by < 0.0 { "-" } else { "" }, text_up(by.abs())),
+                };
+                format!("move the body by [{}, {}] m", by(way_out[0]), by(way_out[1]))
             }
         };
         let allowed = format!("outside {other}, or touching it");
@@ -173,14 +184,29 @@ impl Checker<'_> {
 
 /// An interval shortened by this much at its lower end, or, if negative, at its upper end; `None` if nothing is left.
 fn cut([low, high]: [f64; 2], by: f64) -> Option<[f64; 2]> {
-    let shorter = if by > 0.0 { [low + by, high] } else { [low, high + by] };
-    // Without the rounding of the subtraction: 0, not 1.4e-17.
-    let shorter = shorter.map(|edge| (edge * 1.0e12).round() / 1.0e12);
+    let length = high - low;
+    let shorter = if by > 0.0 {
+        [rounded(low + by, length, f64::ceil), high]
+    } else {
+        [low, rounded(high + by, length, f64::floor)]
+    };
     (shorter[1] - shorter[0] > OVERLAP_TOLERANCE_M).then_some(shorter)
+}
+
+/// A coordinate to a millionth of a length or finer, in as few digits.
+fn rounded(coordinate: f64, length: f64, round: fn(f64) -> f64) -> f64 {
+    let digits = (6.0 - length.log10().floor()).clamp(0.0, 15.0);
+    let scaled = coordinate * 10.0_f64.powf(digits);
+    // Not what lies beyond a digit by the rounding of a subtraction alone.
+    let whole = if (scaled - scaled.round()).abs() < 1.0e-6 { scaled.round() } else { round(scaled) };
+    // Without the rounding of a division: 0.3, not 0.30000000000000004. An added 0 takes the sign from -0.
+    format!("{whole}e-{digits}").parse().unwrap_or(coordinate) + 0.0
 }
 
 /// Whether the edges of a body are in order, so that it has corners and an area.
 pub(super) fn has_geometry(body: &Body) -> bool {
     let [length, height] = body.size_m();
-    [length, height, body.rotation_deg.abs() + 1.0].iter().all(|x| x.is_finite() && *x > 0.0)
+    [length, height, 1.0 / length, 1.0 / height, body.rotation_deg.abs() + 1.0]
+        .iter()
+        .all(|x| x.is_finite() && *x > 0.0)
 }

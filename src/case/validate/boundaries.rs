@@ -4,8 +4,13 @@ use serde::Serialize;
 
 use super::{Checker, toml_text};
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind, OpeningKind};
+use crate::case::contact::BodyContact;
+use crate::case::file_name;
 use crate::case::path::KeyPath;
 use crate::case::suggest::did_you_mean;
+
+/// What else has columns in the table of momentum.
+pub(crate) const AGENTS: [&str; 6] = ["gained", "gravity", "damping", "side_walls", "outflow", "residual"];
 
 /// Whether a field belongs to a boundary.
 #[derive(Clone, Copy, PartialEq)]
@@ -21,6 +26,7 @@ impl Checker<'_> {
         let list = KeyPath::top("boundaries");
         let names: Vec<&str> = self.case.boundaries.iter().map(|boundary| boundary.name.as_str()).collect();
         self.names(&list, &names);
+        self.columns(&list, &names);
         for (index, boundary) in self.case.boundaries.iter().enumerate() {
             let at = list.index(index);
             self.fields_of_kind(&at, boundary);
@@ -36,6 +42,52 @@ impl Checker<'_> {
             }
             for (key, angle) in [("normal_deg", boundary.normal_deg), ("inclination_deg", boundary.inclination_deg)] {
                 self.angle(&at.key(key), angle.unwrap_or(0.0), 360.0);
+            }
+        }
+    }
+
+    /// Each boundary has columns of its own, called by the letters and digits of its name.
+    fn columns(&mut self, list: &KeyPath, names: &[&str]) {
+        let of_bodies: Vec<&str> = self.case.bodies.iter().map(|b| b.name.as_str()).collect();
+        self.one_column_each(&KeyPath::top("bodies"), &of_bodies);
+        self.one_column_each(list, names);
+        let pair =
+            |c: &BodyContact| Some(format!("{}_on_{}", file_name(c.bodies.first()?), file_name(c.bodies.get(1)?)));
+        let pairs: Vec<String> = self.case.contacts.iter().filter_map(pair).collect();
+        for (index, name) in names.iter().enumerate() {
+            let column = file_name(name);
+            let taken = AGENTS.contains(&column.as_str()) || pairs.contains(&column);
+            if taken {
+                let allowed =
+                    format!("a name that is no other column: {}, or BODY_on_BODY of a contact", AGENTS.join(", "));
+                self.not_allowed(&list.index(index).key("name"), name, &allowed, &format!("write \"{name} 1\""));
+            }
+        }
+        for (index, pair) in pairs.iter().enumerate().filter(|(k, pair)| pairs[..*k].contains(pair)) {
+            let what = format!("contacts[{index}] would have the columns `{pair}` of another contact");
+            let path = KeyPath::top("contacts").index(index).key("bodies");
+            self.problem(
+                &path,
+                what,
+                &"",
+                "names of bodies that make columns which differ",
+                "rename one of the bodies",
+            );
+        }
+    }
+
+    /// No two names whose letters and digits are the same.
+    fn one_column_each(&mut self, list: &KeyPath, names: &[&str]) {
+        let columns: Vec<String> = names.iter().map(|name| file_name(name)).collect();
+        for (index, name) in names.iter().enumerate() {
+            let same = |k: &usize| columns[*k] == columns[index] && names[*k] != *name;
+            if let Some(first) = (0..index).find(same) {
+                let allowed = format!(
+                    "names whose letters and digits differ, as tables are written by them: {} is `{}`",
+                    list.index(first),
+                    names[first]
+                );
+                self.not_allowed(&list.index(index).key("name"), name, &allowed, &format!("write \"{name} {index}\""));
             }
         }
     }
@@ -108,6 +160,11 @@ impl Checker<'_> {
         if names.is_empty() {
             let fix = "name a body, or leave the line out for all bodies";
             self.not_allowed(path, &names, "at least one name", fix);
+        }
+        let most = self.case.bodies.len() + 20;
+        if names.len() > most {
+            let what = format!("{path} has {} names", names.len());
+            return self.problem(path, what, &"", "names of bodies, each once", "leave the line out for all bodies");
         }
         for (k, name) in names.iter().enumerate() {
             let bodies = self.case.bodies.iter().map(|b| b.name.as_str());

@@ -1,5 +1,7 @@
 //! Contacts of bodies: whose they are, which fields belong together, and that no body is forgotten.
 
+use std::collections::BTreeSet;
+
 use super::{Checker, toml_text};
 use crate::case::contact::{BodyContact, GapKind, NormalKind};
 use crate::case::path::KeyPath;
@@ -28,6 +30,7 @@ impl Checker<'_> {
             .bodies
             .iter()
             .enumerate()
+            .take(2)
             .filter(|(_, name)| !names().any(|other| other == *name))
             .map(|(k, name)| (k, did_you_mean(name, names())))
             .collect();
@@ -119,7 +122,8 @@ impl Checker<'_> {
     /// A body that is in a contact passes through bodies with which it has none.
     fn forgotten(&mut self, list: &KeyPath) {
         let (bodies, contacts) = (&self.case.bodies, &self.case.contacts);
-        let named = |name: &String| contacts.iter().any(|c| c.bodies.contains(name));
+        let in_contacts: BTreeSet<&String> = contacts.iter().flat_map(|c| &c.bodies).collect();
+        let named = |name: &String| in_contacts.contains(name);
         let pairs = bodies.iter().enumerate().flat_map(|(k, b)| bodies[..k].iter().map(move |a| (&a.name, &b.name)));
         let missing = pairs
             .filter(|(a, b)| named(a) || named(b))

@@ -1,7 +1,7 @@
 //! What a case would cost: particles, grid cells and time steps, refused before any memory is asked for.
 
 use super::bodies::has_geometry;
-use super::{Checker, text};
+use super::{Checker, text, text_down, toml_text};
 use crate::case::path::KeyPath;
 use crate::case::schema::{Body, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS};
 
@@ -27,12 +27,16 @@ impl Checker<'_> {
             let at = KeyPath::top("bodies").index(index);
             let spacing = body.particle_spacing_m(&case.grid);
             let [along, across] = body.particle_counts(&case.grid);
+            let per_side = f64::from(body.particles_per_cell(&case.grid)).sqrt();
             for (key, edges, count) in [("x_m", body.x_m, along), ("y_m", body.y_m, across)] {
                 if count == 0.0 {
-                    let what = format!("body `{}` holds no particle", body.name);
-                    let allowed = format!("sides of at least half the particle spacing of {} m", text(spacing));
-                    let fix = "enlarge the body, or use a smaller grid.spacing_m";
-                    self.problem(&at.key(key), what, &edges, &allowed, fix);
+                    let what = format!("body `{}` is thinner than a particle", body.name);
+                    let allowed = format!("sides of at least the particle spacing of {} m", text(spacing));
+                    let fix = format!(
+                        "enlarge the body, or use grid.spacing_m = {} or less",
+                        text_down((edges[1] - edges[0]) * per_side)
+                    );
+                    self.problem(&at.key(key), what, &edges, &allowed, &fix);
                 }
             }
         }
@@ -70,19 +74,25 @@ impl Checker<'_> {
     }
 
     fn time_steps(&mut self) {
-        let run = KeyPath::top("stages").key("run").key("end_time_s");
-        let (end, step) = (self.case.stages.run.end_time_s, self.case.time_step_estimate_s());
-        if end.is_finite() && end / step > MAX_TIME_STEPS {
-            let what = format!("{run} = {} would take {:.1e} time steps", text(end), end / step);
-            let allowed = format!(
-                "at most {MAX_TIME_STEPS:.1e} steps of {} s, the time step of this cell size and the fastest waves",
-                text(step)
-            );
-            let fix = format!(
-                "use end_time_s = {} or less, a larger grid.spacing_m, or a smaller young_pa",
-                text(step * MAX_TIME_STEPS)
-            );
-            self.problem(&run, what, &end, &allowed, &fix);
+        let (stages, step) = (&self.case.stages, self.case.time_step_estimate_s());
+        let at = KeyPath::top("stages");
+        let settle = stages.settle.as_ref().map(|s| (at.key("settle").key("max_time_s"), s.max_time_s));
+        let tilt = stages.tilt.as_ref().map(|t| (at.key("tilt").key("duration_s"), t.duration_s));
+        let run = (at.key("run").key("end_time_s"), stages.run.end_time_s);
+        for (path, time) in settle.into_iter().chain(tilt).chain([run]) {
+            if time / step > MAX_TIME_STEPS {
+                let what = format!("{path} = {} would take {:.1e} time steps", toml_text(&time), time / step);
+                let allowed = format!(
+                    "at most {MAX_TIME_STEPS:.1e} steps of {} s, the time step of this cell size and the fastest waves",
+                    text(step)
+                );
+                let fix = format!(
+                    "use {} = {} or less, a larger grid.spacing_m, or a smaller young_pa",
+                    path.last_key(),
+                    text_down(step * MAX_TIME_STEPS)
+                );
+                self.problem(&path, what, &time, &allowed, &fix);
+            }
         }
     }
 }

@@ -1,6 +1,8 @@
 //! What is measured: barriers, bases, stations, windows, snapshots.
 
+use super::bodies::has_geometry;
 use super::{Checker, text};
+use crate::case::boundary::{BoundaryKind, MaterialSide};
 use crate::case::file_name;
 use crate::case::path::KeyPath;
 use crate::case::suggest::did_you_mean;
@@ -60,9 +62,30 @@ impl Checker<'_> {
             (false, true) if !in_contact => {
                 format!("add [[contacts]] with `{name}`: what sticks to other bodies has no force to measure")
             }
-            _ => return,
+            _ => return self.faces_the_material(name),
         };
         self.not_allowed(path, &name, "the name of one of [[boundaries]], or of a body in [[contacts]]", &fix);
+    }
+
+    /// A wall whose force is measured has material on the side of its face: else it is loaded on its back, and pulled.
+    fn faces_the_material(&mut self, name: &str) {
+        let Some(index) = self.case.boundaries.iter().position(|b| b.name == name) else { return };
+        let (boundary, at) = (&self.case.boundaries[index], KeyPath::top("boundaries").index(index));
+        let wall = boundary.wall(&self.case.grid).filter(|_| boundary.kind != BoundaryKind::Plane);
+        let Some(wall) = wall.filter(|_| self.is_clean(&at)) else { return };
+        let normal = wall.normal();
+        let before = |corner: &[f64; 2]| {
+            (corner[0] - wall.foot_m[0]) * normal[0] + (corner[1] - wall.foot_m[1]) * normal[1] > 0.0
+        };
+        let mut bodies = self.case.bodies.iter().filter(|b| boundary.acts_on(&b.name) && has_geometry(b)).peekable();
+        if bodies.peek().is_none() || bodies.any(|b| b.corners_m().iter().any(before)) {
+            return;
+        }
+        let other = if wall.material_side == MaterialSide::Left { "right" } else { "left" };
+        let what = format!("the face of the barrier `{name}` looks away from all material");
+        let allowed = "a wall whose force is measured with material on the side of its face";
+        let fix = format!("use material_side = \"{other}\"");
+        self.problem(&at.key("material_side"), what, &boundary.material_side.unwrap_or_default(), allowed, &fix);
     }
 
     /// The boundaries that hold the deposit: each but the first has a file of its own.

@@ -4,9 +4,11 @@ mod bodies;
 mod boundaries;
 mod contacts;
 mod cost;
+mod doubts;
 mod gauges;
 mod materials;
 mod sections;
+mod sizes;
 mod walls;
 mod warnings;
 
@@ -14,6 +16,10 @@ use serde::Serialize;
 
 use super::path::KeyPath;
 use super::schema::Case;
+
+#[cfg(test)]
+pub(crate) use boundaries::AGENTS;
+pub use doubts::too_few_cells;
 
 /// Something in a case that cannot be run, or that looks like a mistake.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +48,16 @@ pub struct Findings {
 /// Checks a case as deserialised, before [`Case::resolve`].
 pub fn validate(case: &Case) -> Findings {
     let mut checker = Checker { case, problems: Vec::new() };
-    checker.finite_numbers();
+    checker.numbers();
+    if !checker.problems.is_empty() {
+        // Geometry with such numbers says nothing.
+        return Findings { problems: checker.problems, warnings: Vec::new() };
+    }
+    checker.too_many();
+    if !checker.problems.is_empty() {
+        return Findings { problems: checker.problems, warnings: Vec::new() };
+    }
+    checker.title();
     checker.sections();
     checker.materials();
     checker.boundaries();
@@ -50,7 +65,10 @@ pub fn validate(case: &Case) -> Findings {
     checker.bodies();
     checker.contacts();
     checker.cost();
-    let warnings = if checker.problems.is_empty() { warnings::warnings(case) } else { Vec::new() };
+    // What is refused needs no warning on top.
+    let refused =
+        |warning: &Problem| checker.problems.iter().any(|p| p.path.is_in(&warning.path) || warning.path.is_in(&p.path));
+    let warnings = warnings::warnings(case, checker.problems.is_empty()).into_iter().filter(|w| !refused(w)).collect();
     Findings { problems: checker.problems, warnings }
 }
 
@@ -104,7 +122,7 @@ impl Checker<'_> {
     fn interval(&mut self, path: &KeyPath, [low, high]: [f64; 2]) {
         if low.is_finite() && high.is_finite() && low >= high {
             let fix = if low > high {
-                format!("swap the two: {} = [{}, {}]", path.last_key(), text(high), text(low))
+                format!("swap the two: {} = [{high}, {low}]", path.last_key())
             } else {
                 "give the interval a length".to_owned()
             };
@@ -117,43 +135,32 @@ impl Checker<'_> {
         !self.problems.iter().any(|problem| problem.path.is_in(part))
     }
 
+    /// Text that goes to terminals, tables and pictures as it is.
+    fn control_characters(&mut self, path: &KeyPath, text: &str) {
+        let plain: String = text.chars().filter(|c| !c.is_control()).collect();
+        let allowed = "one line without control characters: it goes to terminals, tables and pictures as it is";
+        self.not_allowed(path, &text, allowed, &format!("write {plain:?}"));
+    }
+
+    fn title(&mut self) {
+        if self.case.title.contains(char::is_control) {
+            self.control_characters(&KeyPath::top("title"), &self.case.title);
+        }
+    }
+
     /// Names of bodies or boundaries: not empty, no two the same.
     fn names(&mut self, list: &KeyPath, names: &[&str]) {
         for (index, name) in names.iter().enumerate() {
             let path = list.index(index).key("name");
             if name.trim().is_empty() {
                 self.not_allowed(&path, name, "a name that is not empty", "give it a name such as \"sand\"");
+            } else if name.contains(char::is_control) {
+                self.control_characters(&path, name);
             } else if let Some(first) = names[..index].iter().position(|other| other == name) {
                 let fix = format!("rename one of them: {} has the same name", list.index(first));
                 let what = format!("{path} = {} is used twice", toml_text(name));
                 self.problem(&path, what, name, "names that differ", &fix);
             }
-        }
-    }
-
-    /// Every number of the case is finite; TOML can write nan and inf.
-    fn finite_numbers(&mut self) {
-        match toml::Value::try_from(self.case) {
-            Ok(value) => self.finite_numbers_in(&KeyPath::default(), &value),
-            Err(error) => {
-                let what = format!("the case cannot be written as TOML: {error}");
-                self.problem(&KeyPath::default(), what, &"", "a case that can be written back", "report this");
-            }
-        }
-    }
-
-    fn finite_numbers_in(&mut self, path: &KeyPath, value: &toml::Value) {
-        match value {
-            toml::Value::Float(number) if !number.is_finite() => {
-                self.not_allowed(path, number, "a finite number", "write a number; nan and inf have no meaning here");
-            }
-            toml::Value::Array(values) => {
-                values.iter().enumerate().for_each(|(i, value)| self.finite_numbers_in(&path.index(i), value));
-            }
-            toml::Value::Table(table) => {
-                table.iter().for_each(|(key, value)| self.finite_numbers_in(&path.key(key), value));
-            }
-            _ => {}
         }
     }
 }
@@ -173,4 +180,25 @@ fn text(number: f64) -> String {
     } else {
         format!("{rounded:e}")
     }
+}
+
+/// A positive number for a message that is at least this one: six significant digits, rounded up, so that it is accepted when a user
+/// copies it.
+fn text_up(number: f64) -> String {
+    text_away(number, f64::ceil, -1.0e-9)
+}
+
+/// The same, rounded down: at most this number.
+fn text_down(number: f64) -> String {
+    text_away(number, f64::floor, 1.0e-9)
+}
+
+fn text_away(number: f64, round: fn(f64) -> f64, slack: f64) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return text(number);
+    }
+    let exponent = number.abs().log10().floor() as i32;
+    let digits = number / 10.0_f64.powi(exponent) * 1.0e5;
+    let rounded: f64 = format!("{}e{}", round(digits + slack * digits.abs()), exponent - 5).parse().unwrap_or(number);
+    if (1.0e-4..1.0e7).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
 }

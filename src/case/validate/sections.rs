@@ -1,6 +1,6 @@
 //! Gravity, grid, domain, side walls, stages, output and numerical settings.
 
-use super::{Checker, text};
+use super::{Checker, text_down, text_up};
 use crate::case::path::KeyPath;
 
 /// Most samples of the force gauge, and most VTK files.
@@ -51,6 +51,7 @@ impl Checker<'_> {
         let at = KeyPath::top("domain");
         self.interval(&at.key("x_m"), domain.x_m);
         self.interval(&at.key("y_m"), domain.y_m);
+        self.farthest_cell();
         let (at, walls) = (KeyPath::top("side_walls"), &self.case.side_walls);
         self.not_negative(&at.key("friction"), walls.friction, 0.0);
         self.names_of_bodies(&at.key("bodies"), walls.bodies.as_deref());
@@ -91,12 +92,12 @@ impl Checker<'_> {
         self.not_negative(&path, interval, 0.02);
         if interval > 0.0 && end / interval > MAX_VTK_FILES {
             let allowed = format!("at most {MAX_VTK_FILES:e} files; this would write {:.1e}", end / interval);
-            let fix = format!("use {} or more, or 0 for no files", text(end / MAX_VTK_FILES));
+            let fix = format!("use {} or more, or 0 for no files", text_up(end / MAX_VTK_FILES));
             self.not_allowed(&path, &interval, &allowed, &fix);
         }
         if end * rate > MAX_SAMPLES {
             let allowed = format!("at most {MAX_SAMPLES:e} samples; this would record {:.1e}", end * rate);
-            let fix = format!("use {} or less", text(MAX_SAMPLES / end));
+            let fix = format!("use {} or less", text_down(MAX_SAMPLES / end));
             self.require(&KeyPath::top("gauges").key("sample_rate_hz"), rate, false, &allowed, &fix);
         }
         let at = KeyPath::top("numerics");

@@ -1,6 +1,6 @@
 //! Walls, plates and openings that a grid cannot carry.
 
-use super::{Checker, Problem, text, toml_text};
+use super::{Checker, Problem, text, text_down, toml_text};
 use crate::boundary::BoundaryContact;
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind, Wall};
 use crate::case::geometry::direction;
@@ -13,6 +13,8 @@ const WALL_CELLS: (f64, &str) = (3.0, "three cells");
 const GATE_CELLS: (f64, &str) = (1.0, "one cell");
 /// A wall lower than this is not seen by the flow.
 const LEAST_HEIGHT_CELLS: f64 = 1.0;
+/// A wall higher than this has no use: no domain is as large.
+const LARGEST_HEIGHT_CELLS: f64 = 1.0e6;
 /// Openings narrower than so many cells let through another share of the material on another grid.
 const OPENING_CELLS: f64 = 12.0;
 
@@ -44,6 +46,11 @@ impl Checker<'_> {
                 let allowed = format!("{} m or more, one cell: the flow does not see a lower wall", text(least));
                 let fix = "refine the grid, or leave the wall out";
                 self.require(&at.key("height_m"), height, height <= 0.0 || height >= least, &allowed, fix);
+                let most = LARGEST_HEIGHT_CELLS * h;
+                let allowed =
+                    format!("at most {} m, {LARGEST_HEIGHT_CELLS:e} cells: pressures are kept for each", text(most));
+                let fix = format!("use height_m = {} or less, or a plane", text_down(most));
+                self.require(&at.key("height_m"), height, h <= 0.0 || height <= most, &allowed, &fix);
             }
         }
     }
@@ -60,7 +67,7 @@ pub(super) fn narrow_openings(case: &Case) -> Vec<Problem> {
             "{} cells or more: through fewer, the flow that passes depends on the grid",
             text(OPENING_CELLS)
         ),
-        fix: format!("use cells of {} m or less, and compare two grids", text(open / OPENING_CELLS)),
+        fix: format!("use cells of {} m or less, and compare two grids", text_down(open / OPENING_CELLS)),
     };
     let narrow = |open: f64| open > 0.0 && open < OPENING_CELLS * h * (1.0 - 1e-9);
     let mut found = Vec::new();

@@ -1,5 +1,6 @@
 //! Values that can be run and look like mistakes, mostly of units.
 
+use super::doubts::doubts;
 use super::walls::narrow_openings;
 use super::{Problem, text, toml_text};
 use crate::boundary::BoundaryContact;
@@ -12,6 +13,11 @@ use crate::case::schema::{Body, Case};
 
 /// An angle in degrees below this and above zero was probably meant in radians.
 const RADIANS_UP_TO: f64 = 1.6;
+
+/// Lighter than foamed polystyrene and fresh snow, and as many kg/m3 as the heaviest solids have g/cm3.
+const LIGHTEST: f64 = 25.0;
+/// Heavier than any solid (osmium, 22590 kg/m3).
+const HEAVIEST: f64 = 22_600.0;
 
 struct Warnings(Vec<Problem>);
 
@@ -35,18 +41,24 @@ impl Warnings {
         self.add_if(holds, path, angle, "angles are in degrees", &fix);
     }
 
+    fn coefficient(&mut self, at: &KeyPath, friction: f64) {
+        let fix = format!("if it is an angle, write its tangent, {}", text(friction.to_radians().tan()));
+        let fix = if friction < 90.0 { &fix } else { "write the tangent of the angle of friction" };
+        self.add_if(friction > 2.0, &at.key("friction"), friction, "a coefficient, not an angle", fix);
+    }
+
     fn material(&mut self, at: &KeyPath, material: &Material) {
         let young = material.young_pa;
         let fix = format!("if the value is in MPa, write {}", text(young * 1.0e6));
         self.add_if(young < 1.0e3, &at.key("young_pa"), young, "Pa; soils have 1e5 to 1e9", &fix);
 
         let density = material.density_kg_per_m3;
-        let fix = if density < 100.0 {
+        let fix = if density < LIGHTEST {
             format!("if the value is in g/cm^3 or t/m^3, write {}", text(density * 1000.0))
         } else {
             "check the unit".to_owned()
         };
-        let holds = !(100.0..=20000.0).contains(&density);
+        let holds = !(LIGHTEST..=HEAVIEST).contains(&density);
         self.add_if(holds, &at.key("density_kg_per_m3"), density, "kg/m^3; dry sand has about 1500", &fix);
 
         if let Some(law) = material.drucker_prager() {
@@ -126,7 +138,8 @@ impl Warnings {
     }
 }
 
-pub(super) fn warnings(case: &Case) -> Vec<Problem> {
+/// All of them; those that need a case that makes sense only for one.
+pub(super) fn warnings(case: &Case, valid: bool) -> Vec<Problem> {
     let mut warnings = Warnings(Vec::new());
     let gravity = KeyPath::top("gravity");
     warnings.radians(&gravity.key("inclination_deg"), Some(case.gravity.inclination_deg));
@@ -138,16 +151,22 @@ pub(super) fn warnings(case: &Case) -> Vec<Problem> {
         let at = KeyPath::top("boundaries").index(index);
         warnings.radians(&at.key("normal_deg"), boundary.normal_deg);
         warnings.radians(&at.key("inclination_deg"), boundary.inclination_deg);
-        if let Some(friction) = boundary.friction {
-            let fix = format!("if it is an angle, write its tangent, {}", text(friction.to_radians().tan()));
-            warnings.add_if(friction > 2.0, &at.key("friction"), friction, "a coefficient, not an angle", &fix);
-        }
-        warnings.outside(&at, case, boundary);
-        if case.numerics.boundary_contact == BoundaryContact::Nodes {
-            warnings.brim(&at, case, boundary);
+        warnings.coefficient(&at, boundary.friction.unwrap_or(0.0));
+        if valid {
+            warnings.outside(&at, case, boundary);
+            if case.numerics.boundary_contact == BoundaryContact::Nodes {
+                warnings.brim(&at, case, boundary);
+            }
         }
     }
-    warnings.0.extend(narrow_openings(case));
+    for (index, contact) in case.contacts.iter().enumerate() {
+        warnings.coefficient(&KeyPath::top("contacts").index(index), contact.friction);
+    }
+    warnings.coefficient(&KeyPath::top("side_walls"), case.side_walls.friction);
+    if valid {
+        warnings.0.extend(narrow_openings(case));
+        warnings.0.extend(doubts(case));
+    }
     if let Some(tilt) = &case.stages.tilt {
         let turn = case.gravity.inclination_deg - case.gravity.settle_inclination_or_default_deg();
         let path = KeyPath::top("stages").key("tilt").key("duration_s");
