@@ -25,9 +25,11 @@ pub struct Site {
     pub boundary: u32,
     /// Unit normal, into the material.
     pub normal: [f64; 2],
-    /// Position along the face from its foot, m.
+    /// Position along the boundary's face from its foot, m.
     pub along: f64,
-    /// Which end of the wall is near, and half the distance of the lines along the face, m.
+    /// Position along the side that is crossed, and the length of that, m.
+    place: [f64; 2],
+    /// Which end of the side is near, and half the distance of the lines along it, m.
     end: Option<(End, f64)>,
     /// Place, m.
     pub x: [f64; 2],
@@ -44,12 +46,12 @@ pub struct Site {
     state: HoldState,
 }
 
-/// The free end of a wall beside a crossing.
+/// The free end of a side beside a crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// The lower edge, with an opening below it.
+    /// Where it begins: at the lower edge, with an opening below it, or at the face.
     Foot,
-    /// The upper edge.
+    /// Where it ends: at the crest, or at the back.
     Crest,
 }
 
@@ -65,14 +67,14 @@ pub struct SiteNode {
 }
 
 impl Site {
-    /// A crossing with `face`, between `nodes` with these shares; where it lies (m along the face, position), and the foot of the
-    /// boundary.
+    /// A crossing with `side`, between `nodes` with these shares; where it lies (m along that side and along the boundary's face,
+    /// position), and the foot of the boundary.
     pub(super) fn new(
         nodes: [usize; 2],
         shares: [f64; 2],
         boundary: usize,
-        face: &Boundary,
-        (along, x, foot): (f64, [f64; 2], [f64; 2]),
+        side: &Boundary,
+        ([place, along], x, foot): ([f64; 2], [f64; 2], [f64; 2]),
         plate: bool,
     ) -> Self {
         let [a, b] = nodes.map(|n| n as u32);
@@ -81,12 +83,13 @@ impl Site {
             shares: [shares, [0.0; 2]],
             open: 0.0,
             boundary: boundary as u32,
-            normal: face.normal.into(),
+            normal: side.normal.into(),
             along,
+            place: [place, side.height()],
             end: None,
             x,
             arm: minus(x, foot),
-            friction: face.friction.coefficient(),
+            friction: side.friction.coefficient(),
             plate,
             free: 0.0,
             impulse: [0.0; 2],
@@ -109,12 +112,13 @@ impl Site {
     pub fn reset(&mut self, boundaries: &[Boundary]) {
         (self.impulse, self.state) = ([0.0; 2], HoldState::Apart);
         let b = &boundaries[self.boundary as usize];
-        let closed = b.free_below <= 0.0 || self.along >= b.free_below;
+        let [place, length] = self.place;
+        let closed = b.free_below <= 0.0 || place >= b.free_below;
         self.open = match self.end {
             None | Some((End::Crest, _)) if !closed => 1.0,
             None => 0.0,
-            Some((End::Foot, half)) => (0.5 + (b.free_below - self.along) / (2.0 * half)).clamp(0.0, 1.0),
-            Some((End::Crest, half)) => (0.5 + (self.along - b.height()) / (2.0 * half)).clamp(0.0, 1.0),
+            Some((End::Foot, half)) => (0.5 + (b.free_below - place) / (2.0 * half)).clamp(0.0, 1.0),
+            Some((End::Crest, half)) => (0.5 + (place - length) / (2.0 * half)).clamp(0.0, 1.0),
         };
     }
 
