@@ -20,6 +20,7 @@ pub mod fault;
 pub mod figure;
 pub mod manufactured;
 pub mod neo_hookean;
+pub mod outflow;
 pub mod release;
 pub mod report;
 pub mod scene;
@@ -142,6 +143,7 @@ ladder! { $
     contact,
     wall_pressure,
     collapse,
+    outflow,
     convergence,
 }
 

@@ -139,8 +139,9 @@ impl<'a> Search<'a> {
         let face = faces.first()?;
         let (_, s) = face.side.face_coordinates(x);
         let half = 0.5 * face.line;
-        // What passes beside an end of a wall passes along all of it.
-        if self.end(&face.side, s, half) == Some(End::Foot) && !face.side.is_lifted() {
+        // What passes beside an end of a wall passes along all of it, unless that has a lower edge of its own.
+        let edge = faces.iter().any(|f| f.part == Part::Foot);
+        if !edge && self.end(&face.side, s, half) == Some(End::Foot) && !face.side.is_lifted() {
             return None;
         }
         let hold = self.at_node(node, x, face.index)?.clear_of_edge(half);
@@ -163,7 +164,7 @@ impl<'a> Search<'a> {
     /// is lifted has one at all its places.
     fn end(&self, b: &Boundary, s: f64, half: f64) -> Option<End> {
         let foot = b.foot() + b.tangent * b.free_below.max(0.0);
-        let reach = half - self.tolerance;
+        let reach = half + self.tolerance;
         match () {
             () if b.height().is_infinite() => None,
             () if b.is_lifted() => Some(End::Foot),

@@ -143,3 +143,34 @@ impl Boundary {
         self.with_face(self.foot(), -self.normal, -self.tangent, self.thickness())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sides of a wall that stands at (1, 2), 4 m high, on cells of 0.1 m, if only places above `ground` (m) are free.
+    fn sides(wall: &Boundary, ground: f64) -> Vec<(Part, Vector2<f64>, Vector2<f64>, f64)> {
+        let all = Face::of(0, wall, 0.1, |x| x.y > ground);
+        all.into_iter().map(|f| (f.part, f.side.foot(), f.side.normal, f.side.height())).collect()
+    }
+
+    #[test]
+    fn a_wall_has_narrow_sides_where_material_can_be() {
+        let (at, up) = (Vector2::new, Vector2::new(0.0, 1.0));
+        let wall = |thickness: f64| Boundary::wall("wall", at(1.0, 2.0), up, 4.0, thickness, Friction::Smooth);
+        let all = [
+            (Part::Face, at(1.0, 2.0), at(-1.0, 0.0), 4.0),
+            (Part::Back, at(1.5, 2.0), at(1.0, 0.0), 4.0),
+            (Part::Crest, at(1.0, 6.0), at(0.0, 1.0), 0.5),
+            (Part::Foot, at(1.0, 2.0), at(0.0, -1.0), 0.5),
+        ];
+        assert_eq!(sides(&wall(0.5), 0.0), all);
+        assert_eq!(sides(&wall(0.5), 2.0), all[..3], "it stands on the ground");
+        assert_eq!(sides(&wall(0.2), 0.0).len(), 2, "a plate ends in a line");
+        assert_eq!(sides(&wall(0.5).gate(Opening::Vanish), 0.0).len(), 1);
+        let mirrored = sides(&wall(0.5).facing_right(), 0.0);
+        assert_eq!(mirrored[3], (Part::Foot, at(1.0, 2.0), at(0.0, -1.0), 0.5));
+        let tangent = Face::of(0, &wall(0.5).facing_right(), 0.1, |_| true)[2].side.tangent;
+        assert_eq!(tangent, at(-1.0, 0.0), "from the face to the back");
+    }
+}

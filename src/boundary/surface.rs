@@ -29,6 +29,8 @@ pub struct Site {
     pub along: f64,
     /// Position along the side that is crossed, and the length of that, m.
     place: [f64; 2],
+    /// Unit vector along that side.
+    tangent: [f64; 2],
     /// Which end of the side is near, and half the distance of the lines along it, m.
     end: Option<(End, f64)>,
     /// Place, m.
@@ -86,6 +88,7 @@ impl Site {
             normal: side.normal.into(),
             along,
             place: [place, side.height()],
+            tangent: side.tangent.into(),
             end: None,
             x,
             arm: minus(x, foot),
@@ -105,6 +108,19 @@ impl Site {
         self.shares[1] = shares;
         self.end = Some((end, half));
         self
+    }
+
+    /// Whether single points are kept from passing the surface here: at plates and ends, where the velocity of the grid may lead them
+    /// into it.
+    pub fn is_watched(&self) -> bool {
+        self.plate || self.end.is_some()
+    }
+
+    /// Whether the side that is crossed is there, beside a place: not beyond its ends, nor below the lower edge of a gate.
+    pub fn is_beside(&self, x: [f64; 2], b: &Boundary) -> bool {
+        let [place, length] = self.place;
+        let along = place + dot(minus(x, self.x), self.tangent);
+        (b.free_below.max(0.0)..=length).contains(&along)
     }
 
     /// Forgets the impulses of the last step, and sees how far the wall covers the line: the share of the half lines on either side
