@@ -281,10 +281,11 @@ fn places(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
     silos.extend(at_places(4, BoundaryContact::Surface, SOME));
     silos.extend(at_places(CELLS, BoundaryContact::Nodes, ALL));
     let seen: Vec<Seen> = silos.par_iter().map(|s| s.empty(fault)).collect::<Result<_, _>>()?;
-    let coefficients = |cells: usize| -> Vec<(f64, f64)> {
-        let own = silos.iter().zip(&seen).filter(|(s, _)| s.contact == BoundaryContact::Surface && s.cells == cells);
+    let coefficients_of = |contact: BoundaryContact, cells: usize| -> Vec<(f64, f64)> {
+        let own = silos.iter().zip(&seen).filter(|(s, _)| s.contact == contact && s.cells == cells);
         own.map(|(s, seen)| (s.place, seen.coefficient)).collect()
     };
+    let coefficients = |cells: usize| coefficients_of(BoundaryContact::Surface, cells);
     let mirrored = coefficients(CELLS);
     let apart = mirrored.iter().flat_map(|(place, c)| {
         let image = mirrored.iter().find(|(other, _)| *place > 0.0 && *other == 1.0 - place);
@@ -304,13 +305,17 @@ fn places(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
         let all = coefficients(cells);
         all.iter().map(|(_, c)| c).sum::<f64>() / all.len() as f64
     };
-    for cells in [CELLS, 16] {
-        let all = coefficients(cells);
+    // By how much the width must differ for the discharge to differ as it does, in cells.
+    let moved = |contact: BoundaryContact, cells: usize| {
+        let all = coefficients_of(contact, cells);
         let (low, high) = all.iter().fold((f64::INFINITY, 0.0f64), |(l, h), (_, c)| (l.min(*c), h.max(*c)));
+        cells as f64 * (libm::pow(high / low, 2.0 / 3.0) - 1.0)
+    };
+    for cells in [CELLS, 16] {
         outcome.check(
             Check::at_most(
                 format!("{cells} cells: by how much the place of the slot between the nodes moves its width"),
-                cells as f64 * (libm::pow(high / low, 2.0 / 3.0) - 1.0),
+                moved(BoundaryContact::Surface, cells),
                 1.0,
                 "cells",
             )
@@ -318,6 +323,16 @@ fn places(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
             .from(Kind::Conservation, "invariance to a shift of the grid"),
         );
     }
+    outcome.check(
+        Check::at_most(
+            "contact at nodes is refuted: one over what the place of the slot moves there",
+            1.0 / moved(BoundaryContact::Nodes, CELLS),
+            1.0,
+            "1/cells",
+        )
+        .because("a scene that did not tell the two apart would prove nothing")
+        .from(Kind::Conservation, "invariance to a shift of the grid"),
+    );
     for cells in [4, CELLS] {
         outcome.check(
             Check::value(
