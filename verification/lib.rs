@@ -21,6 +21,7 @@ pub mod fault;
 pub mod figure;
 pub mod manufactured;
 pub mod neo_hookean;
+pub mod outflow;
 pub mod release;
 pub mod report;
 pub mod scene;
@@ -144,6 +145,7 @@ ladder! { $
     wall_pressure,
     fall,
     collapse,
+    outflow,
     convergence,
 }
 

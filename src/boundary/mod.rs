@@ -2,12 +2,13 @@
 //!
 //! Material may leave a boundary but not press into it, and slides on it with Coulomb friction. A clamp holds material back
 //! as well, on the nodes nearest to its plane and behind it. [`Boundary`] is the geometry, [`nodes`] the law at a node,
-//! [`surface`] the law where the surface passes between nodes; `search` finds both.
+//! [`surface`] the law where the surface passes between nodes; `search` finds both, side by side (`side`).
 //!
 //! Elsewhere: rigid obstacles, and essential (Dirichlet) conditions at nodes: free slip, no slip, unilateral, fixed.
 
 pub mod nodes;
 pub mod search;
+mod side;
 pub mod surface;
 
 use nalgebra::Vector2;

@@ -56,6 +56,11 @@ impl Hold {
         Self { clear, ..self }
     }
 
+    /// The same with another normal.
+    pub(super) fn toward(self, normal: [f64; 2]) -> Self {
+        Self { normal, ..self }
+    }
+
     /// There is nothing at the node in this step.
     pub fn let_go(&mut self) {
         (self.impulse, self.state) = ([0.0; 2], HoldState::Apart);

@@ -1,16 +1,12 @@
 //! Which nodes of the grid a boundary holds, and where its surface crosses the lines of the grid.
 
 use super::nodes::Hold;
+use super::side::{Face, NEAR, Part};
 use super::surface::{End, Site};
-use super::{Boundary, BoundaryContact, Contact, Friction, Opening, Solid};
+use super::{Boundary, BoundaryContact, Contact};
 use crate::grid::ActiveGrid;
 use nalgebra::Vector2;
 
-/// What lies within this share of a cell of a node is taken to lie on it: a crossing so near would only divide by small numbers.
-const NEAR: f64 = 0.05;
-/// Walls thinner than this, in cells, are plates: material on one side reaches the nodes of the other, so that what touches is
-/// decided by the points.
-const PLATE: f64 = 2.5;
 /// Planes whose normals have a larger scalar product than this are pieces of one surface; others make a corner.
 const SMOOTH: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
@@ -21,23 +17,6 @@ pub struct Found {
     pub holds: Vec<Hold>,
     /// Between two nodes, in the order of the nodes behind the surface.
     pub sites: Vec<Site>,
-}
-
-/// A side of a boundary that material may meet: its face, or the back of a wall as if that were its face.
-struct Face {
-    /// Index of the boundary.
-    index: usize,
-    side: Boundary,
-    /// Whether the wall is so thin that points decide about contact.
-    plate: bool,
-    /// Axis of the grid lines that cross it most steeply.
-    axis: usize,
-    /// Which way along it leads out of the boundary, 1 or -1.
-    toward: f64,
-    /// How much nearer to the surface the next node lies along such a line, m.
-    step: f64,
-    /// Distance of such lines along the face, m.
-    line: f64,
 }
 
 /// A search on one grid.
@@ -64,7 +43,8 @@ pub fn find_holds(
     let mut search = Search { boundaries, bodies, grid, faces: Vec::new(), tolerance: 1e-6 * grid.spacing, contact };
     if contact == BoundaryContact::Surface {
         let still = search.acting().filter(|(_, b)| b.is_still());
-        search.faces = still.flat_map(|(index, b)| Face::of(index, b, grid.spacing)).collect();
+        let is_free = |x: Vector2<f64>| !search.is_buried(x.into(), -search.tolerance);
+        search.faces = still.flat_map(|(index, b)| Face::of(index, b, grid.spacing, is_free)).collect();
     }
     for (node, x) in grid.nodes() {
         for (index, _) in search.acting() {
@@ -75,39 +55,6 @@ pub fn find_holds(
                 false => search.on_surface(node, x, own, found),
             }
         }
-    }
-}
-
-impl Face {
-    /// The sides of a boundary that contact on the surface knows.
-    fn of(index: usize, b: &Boundary, spacing: f64) -> Vec<Self> {
-        let sides = match b.solid {
-            Solid::Slab { face_only: false, .. } => vec![b.clone(), b.back()],
-            _ => vec![b.clone()],
-        };
-        let face = |side: Boundary| {
-            let axis = side.normal.iamax();
-            let [normal, tangent] = [side.normal[axis], side.tangent[1 - axis]];
-            Self {
-                index,
-                plate: side.height().is_finite() && !side.is_gate() && side.thickness() < PLATE * spacing,
-                axis,
-                toward: normal.signum(),
-                step: normal.abs() * spacing,
-                line: spacing / tangent.abs(),
-                side,
-            }
-        };
-        sides.into_iter().map(face).collect()
-    }
-
-    /// Within this distance of the face a node lies on it, m.
-    fn near(&self) -> f64 {
-        NEAR * self.step
-    }
-
-    fn is_plane(&self) -> bool {
-        self.side.height().is_infinite()
     }
 }
 
@@ -165,32 +112,50 @@ impl<'a> Search<'a> {
             }
         }
         let Some(face) = faces.first() else { return };
-        if found.sites.len() > before || face.plate || face.is_plane() && self.is_of_another(x, face.index) {
+        let crossed = found.sites.len() > before;
+        if face.plate || face.is_plane() && (crossed || self.is_of_another(x, face.index)) {
             return;
         }
+        // At a corner a node may lie on one side and behind another.
+        let apart = if crossed { -NEAR * self.grid.spacing } else { self.tolerance };
         for face in faces {
             let (d, s) = face.side.face_coordinates(x);
-            if d > self.tolerance && d <= face.near() && self.is_on_face(&face.side, x, s, 0.0) {
-                let contact = Contact { normal: face.side.normal.into(), along: s };
+            let own = found.sites[before..].iter().any(|site| site.normal == <[f64; 2]>::from(face.side.normal));
+            if d > apart && d.abs() <= face.near() && !own && self.is_on_face(face, x, s, 0.0) {
                 let b = &self.boundaries[face.index];
+                let along = if face.is_narrow() { b.face_coordinates(x).1 } else { s };
+                let contact = Contact { normal: face.side.normal.into(), along };
                 found.holds.push(Hold::new(node, x, face.index, b, contact, true));
                 return;
             }
         }
-        // What passes beside an end of a wall passes along all of it.
-        let (_, s) = face.side.face_coordinates(x);
-        let half = 0.5 * face.line;
-        let passes = self.end(&face.side, s, half) == Some(End::Foot) && !face.side.is_lifted();
-        if !passes {
-            let hold = self.at_node(node, x, face.index);
-            found.holds.extend(hold.map(|h| h.clear_of_edge(half)));
+        if !crossed {
+            found.holds.extend(self.inside(node, x, faces));
         }
     }
 
+    /// A node inside a boundary with these faces, on none of them and not the first behind one.
+    fn inside(&self, node: usize, x: [f64; 2], faces: &[Face]) -> Option<Hold> {
+        let face = faces.first()?;
+        let (_, s) = face.side.face_coordinates(x);
+        let half = 0.5 * face.line;
+        // What passes beside an end of a wall passes along all of it, unless that has a lower edge of its own.
+        let edge = faces.iter().any(|f| f.part == Part::Foot);
+        if !edge && self.end(&face.side, s, half) == Some(End::Foot) && !face.side.is_lifted() {
+            return None;
+        }
+        let hold = self.at_node(node, x, face.index)?.clear_of_edge(half);
+        // `Boundary::hold` knows no lower edge.
+        let depth = |f: &Face| -f.side.face_coordinates(x).0;
+        let nearest = faces[1..].iter().fold(face, |near, f| if depth(f) < depth(near) { f } else { near });
+        Some(if nearest.part == Part::Foot { hold.toward(nearest.side.normal.into()) } else { hold })
+    }
+
     /// Whether a place on the face, at `s` (m) along it, belongs to it, or lies at most `beyond` (m) off its ends.
-    fn is_on_face(&self, b: &Boundary, x: [f64; 2], s: f64, beyond: f64) -> bool {
-        let goes_on = b.height().is_infinite() || b.free_below <= 0.0 && self.is_buried(x, -self.tolerance);
-        let bottom = if goes_on { f64::NEG_INFINITY } else { 0.0 };
+    fn is_on_face(&self, face: &Face, x: [f64; 2], s: f64, beyond: f64) -> bool {
+        let b = &face.side;
+        let buried = || b.free_below <= 0.0 && !face.is_narrow() && self.is_buried(x, -self.tolerance);
+        let bottom = if face.is_plane() || buried() { f64::NEG_INFINITY } else { 0.0 };
         let reach = beyond + self.tolerance;
         (bottom - reach..=b.height() + reach).contains(&s)
     }
@@ -199,7 +164,7 @@ impl<'a> Search<'a> {
     /// is lifted has one at all its places.
     fn end(&self, b: &Boundary, s: f64, half: f64) -> Option<End> {
         let foot = b.foot() + b.tangent * b.free_below.max(0.0);
-        let reach = half - self.tolerance;
+        let reach = half + self.tolerance;
         match () {
             () if b.height().is_infinite() => None,
             () if b.is_lifted() => Some(End::Foot),
@@ -236,12 +201,14 @@ impl<'a> Search<'a> {
         let (_, along) = side.face_coordinates(at.into());
         let end = self.end(side, along, half);
         let off = face.plate || end.is_some() || d < -face.near();
-        if !off || !self.is_on_face(side, at.into(), along, if end.is_some() { half } else { 0.0 }) {
+        if !off || !self.is_on_face(face, at.into(), along, if end.is_some() { half } else { 0.0 }) {
             return None;
         }
         let (nodes, shares) = self.between(node, x, at, face)?;
-        let foot = self.boundaries[face.index].foot();
-        let site = Site::new(nodes, shares, face.index, side, (along, at.into(), foot.into()), face.plate);
+        let b = &self.boundaries[face.index];
+        let on_wall = if face.is_narrow() { b.face_coordinates(at.into()).1 } else { along };
+        let places = [along, on_wall];
+        let site = Site::new(nodes, shares, face.index, side, (places, at.into(), b.foot().into()), face.plate);
         let Some(end) = end else { return Some(site) };
         let beyond = at + side.tangent * if end == End::Foot { -face.line } else { face.line };
         // Nothing passes where there is no line between the end of the wall and what it stands on.
@@ -250,40 +217,5 @@ impl<'a> Search<'a> {
             Some(next) => Some(site.beside(end, next, half)),
             None => Some(site),
         }
-    }
-}
-
-impl Face {
-    /// Where the face crosses the line of the grid through `x`, which is `d` (m) before it.
-    fn crossing_point(&self, x: [f64; 2], d: f64, spacing: f64) -> Vector2<f64> {
-        let mut at = Vector2::from(x);
-        at[self.axis] += self.toward * (-d / self.step) * spacing;
-        at
-    }
-}
-
-impl Boundary {
-    /// Whether it stands still and lets go: contact on its surface is for such boundaries.
-    fn is_still(&self) -> bool {
-        self.friction != Friction::Bonded && self.velocity == Vector2::zeros()
-    }
-
-    /// Whether it is a gate that opens from below.
-    fn is_lifted(&self) -> bool {
-        self.released && matches!(self.opening, Some(Opening::Lift { .. }))
-    }
-
-    /// Whether it is a gate, of which only the face acts.
-    fn is_gate(&self) -> bool {
-        matches!(self.solid, Solid::Slab { face_only: true, .. })
-    }
-
-    /// The back of a wall, as a face.
-    fn back(&self) -> Self {
-        let mut back = Self { normal: -self.normal, ..self.clone() };
-        if let Solid::Slab { foot, thickness, .. } = &mut back.solid {
-            *foot -= self.normal * *thickness;
-        }
-        back
     }
 }

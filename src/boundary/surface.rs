@@ -25,9 +25,13 @@ pub struct Site {
     pub boundary: u32,
     /// Unit normal, into the material.
     pub normal: [f64; 2],
-    /// Position along the face from its foot, m.
+    /// Position along the boundary's face from its foot, m.
     pub along: f64,
-    /// Which end of the wall is near, and half the distance of the lines along the face, m.
+    /// Position along the side that is crossed, and the length of that, m.
+    place: [f64; 2],
+    /// Unit vector along that side.
+    tangent: [f64; 2],
+    /// Which end of the side is near, and half the distance of the lines along it, m.
     end: Option<(End, f64)>,
     /// Place, m.
     pub x: [f64; 2],
@@ -44,12 +48,12 @@ pub struct Site {
     state: HoldState,
 }
 
-/// The free end of a wall beside a crossing.
+/// The free end of a side beside a crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// The lower edge, with an opening below it.
+    /// Where it begins: at the lower edge, with an opening below it, or at the face.
     Foot,
-    /// The upper edge.
+    /// Where it ends: at the crest, or at the back.
     Crest,
 }
 
@@ -69,14 +73,14 @@ pub struct SiteNode {
 }
 
 impl Site {
-    /// A crossing with `face`, between `nodes` with these shares; where it lies (m along the face, position), and the foot of the
-    /// boundary.
+    /// A crossing with `side`, between `nodes` with these shares; where it lies (m along that side and along the boundary's face,
+    /// position), and the foot of the boundary.
     pub(super) fn new(
         nodes: [usize; 2],
         shares: [f64; 2],
         boundary: usize,
-        face: &Boundary,
-        (along, x, foot): (f64, [f64; 2], [f64; 2]),
+        side: &Boundary,
+        ([place, along], x, foot): ([f64; 2], [f64; 2], [f64; 2]),
         plate: bool,
     ) -> Self {
         let [a, b] = nodes.map(|n| n as u32);
@@ -85,12 +89,14 @@ impl Site {
             shares: [shares, [0.0; 2]],
             open: 0.0,
             boundary: boundary as u32,
-            normal: face.normal.into(),
+            normal: side.normal.into(),
             along,
+            place: [place, side.height()],
+            tangent: side.tangent.into(),
             end: None,
             x,
             arm: minus(x, foot),
-            friction: face.friction.coefficient(),
+            friction: side.friction.coefficient(),
             plate,
             free: 0.0,
             impulse: [0.0; 2],
@@ -108,17 +114,31 @@ impl Site {
         self
     }
 
+    /// Whether single points are kept from passing the surface here: at plates and ends, where the velocity of the grid may lead them
+    /// into it.
+    pub fn is_watched(&self) -> bool {
+        self.plate || self.end.is_some()
+    }
+
+    /// Whether the side that is crossed is there, beside a place: not beyond its ends, nor below the lower edge of a gate.
+    pub fn is_beside(&self, x: [f64; 2], b: &Boundary) -> bool {
+        let [place, length] = self.place;
+        let along = place + dot(minus(x, self.x), self.tangent);
+        (b.free_below.max(0.0)..=length).contains(&along)
+    }
+
     /// Forgets the impulses of the last step, and sees how far the wall covers the line: the share of the half lines on either side
     /// that is free.
     pub fn reset(&mut self, boundaries: &[Boundary]) {
         (self.impulse, self.state) = ([0.0; 2], HoldState::Apart);
         let b = &boundaries[self.boundary as usize];
-        let closed = b.free_below <= 0.0 || self.along >= b.free_below;
+        let [place, length] = self.place;
+        let closed = b.free_below <= 0.0 || place >= b.free_below;
         self.open = match self.end {
             None | Some((End::Crest, _)) if !closed => 1.0,
             None => 0.0,
-            Some((End::Foot, half)) => (0.5 + (b.free_below - self.along) / (2.0 * half)).clamp(0.0, 1.0),
-            Some((End::Crest, half)) => (0.5 + (self.along - b.height()) / (2.0 * half)).clamp(0.0, 1.0),
+            Some((End::Foot, half)) => (0.5 + (b.free_below - place) / (2.0 * half)).clamp(0.0, 1.0),
+            Some((End::Crest, half)) => (0.5 + (place - length) / (2.0 * half)).clamp(0.0, 1.0),
         };
     }
 

@@ -15,7 +15,7 @@ use crate::momentum;
 use crate::space::{dot, mean, minus, moment, plus, scaled};
 use std::ops::Range;
 
-/// Distance from a plate at which a point is put that would have crossed it, cells.
+/// Distance from a surface at which a point is put that would have crossed it, cells.
 const ON_SURFACE: f64 = 1e-9;
 /// Most visits to the crossings and nodes of a group.
 const SWEEPS: usize = 24;
@@ -42,9 +42,9 @@ struct Group {
     sites: Range<usize>,
 }
 
-/// Some points of a body, near a plate.
+/// Some points of a body, near a plate or an end of a side.
 #[derive(Debug, Clone, Copy)]
-struct NearPlate {
+struct Near {
     site: usize,
     field: usize,
     band: usize,
@@ -62,7 +62,7 @@ pub(super) struct Surface {
     /// Their nodes are numbered within the group.
     sites: Vec<Site>,
     states: Vec<SiteNode>,
-    near: Vec<NearPlate>,
+    near: Vec<Near>,
     /// What the crossings with each boundary did in the last step, field by field.
     tallies: Vec<Vec<Tally>>,
 }
@@ -149,7 +149,7 @@ impl Surface {
         }
     }
 
-    /// Finds the nodes among those that the bands leave open, once these are sorted, and the points near plates.
+    /// Finds the nodes among those that the bands leave open, once these are sorted, and the points near plates and ends.
     pub fn find(&mut self, fields: &[VelocityField], boundaries: &[Boundary], spacing: f64) {
         for place in &mut self.nodes {
             let shared = &fields[place.field].bands[place.band].shared;
@@ -157,15 +157,20 @@ impl Surface {
         }
         self.near.clear();
         for group in &self.groups {
-            for site in group.sites.clone().filter(|&s| self.sites[s].plate) {
+            for site in group.sites.clone().filter(|&s| self.sites[s].is_watched()) {
                 let field = self.nodes[group.nodes.start].field;
                 // Points move by no more than a cell until the next sort.
-                let reach = 3.0 * spacing + boundaries[self.sites[site].boundary as usize].thickness();
+                let behind = if self.sites[site].plate {
+                    boundaries[self.sites[site].boundary as usize].thickness()
+                } else {
+                    0.0
+                };
+                let reach = 3.0 * spacing + behind;
                 for (band, b) in fields[field].bands.iter().enumerate() {
                     for (body, points) in b.points.iter().enumerate() {
                         for (block, (points, n)) in points.blocks().enumerate() {
                             if (0..n).any(|l| is_near(points, l, self.sites[site].x, reach)) {
-                                self.near.push(NearPlate { site, field, band, body, block, before: 0 });
+                                self.near.push(Near { site, field, band, body, block, before: 0 });
                             }
                         }
                     }
@@ -192,7 +197,7 @@ impl Surface {
                 let (d, along) = (dot(r, site.normal), dot(r, [ny, -nx]));
                 at.before |= u8::from(d >= 0.0) << l;
                 // Behind the middle of the plate it belongs to the other side.
-                if d >= -half && along.abs() <= field.grid.spacing {
+                if site.plate && d >= -half && along.abs() <= field.grid.spacing {
                     site.free = site.free.min((d - size).max(0.0) / dt);
                 }
             }
@@ -232,8 +237,8 @@ impl Surface {
         }
     }
 
-    /// Keeps single points before the plates that they were before: between the crossings, the velocity of the grid may lead a point
-    /// that is close to a plate into it. Such a point is put back on the surface, and loses the speed at which it approached.
+    /// Keeps single points before the plates and ends of walls that they were before: between the crossings, the velocity of the grid
+    /// may lead a point into them. Such a point is put back on the surface, and loses the speed at which it approached.
     pub fn keep(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary]) {
         let Self { sites, near, tallies, .. } = self;
         for at in near.iter().filter(|at| at.before != 0) {
@@ -245,8 +250,7 @@ impl Surface {
             for l in (0..n).filter(|l| at.before >> l & 1 == 1) {
                 let x = [block.x[0][l], block.x[1][l]];
                 let d = dot(minus(x, site.x), site.normal);
-                let along = b.face_coordinates(x).1;
-                if d >= 0.0 || along < b.free_below || along > b.height() {
+                if d >= 0.0 || !site.is_beside(x, b) {
                     continue;
                 }
                 let x = plus(x, scaled(site.normal, ON_SURFACE * grid.spacing - d));

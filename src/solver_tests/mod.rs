@@ -2,6 +2,7 @@
 //! gates, departures, failures.
 
 mod contact;
+mod edges;
 mod failures;
 mod forces;
 mod motion;

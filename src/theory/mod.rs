@@ -20,6 +20,7 @@ pub mod jump;
 pub mod manufactured;
 pub mod neo_hookean;
 pub mod order;
+pub mod outflow;
 pub mod pic;
 pub mod self_weight;
 pub mod sliding_block;
