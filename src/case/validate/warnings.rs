@@ -3,7 +3,6 @@
 use super::doubts::doubts;
 use super::walls::narrow_openings;
 use super::{Problem, text, toml_text};
-use crate::boundary::BoundaryContact;
 use crate::case::boundary::{Boundary, Shape};
 use crate::case::geometry::{direction, penetration_of_rectangle};
 use crate::case::grid::Domain;
@@ -100,8 +99,8 @@ impl Warnings {
 const BELOW_CREST_CELLS: f64 = 1.0;
 
 impl Warnings {
-    /// A gate whose contact acts at nodes. Where its crest lies between two of them, sand that reaches up to it creeps over it, and
-    /// does not come to rest.
+    /// A gate whose crest lies between two rows of nodes: sand that reaches up to it creeps over it, and may not come to rest, since the
+    /// row above the crest is held by nothing.
     fn brim(&mut self, at: &KeyPath, case: &Case, boundary: &Boundary) {
         let Some(Shape::Gate(gate, _)) = boundary.shape(&case.grid) else { return };
         let h = case.grid.spacing_m;
@@ -130,7 +129,7 @@ impl Warnings {
                         text(top)
                     ),
                     value: toml_text(&gate.height_m),
-                    allowed: "a crest on a grid line, or one cell above the material: contact acts at the grid's nodes".to_owned(),
+                    allowed: "a crest on a grid line, or one cell above the material: nothing holds the row of nodes above it".to_owned(),
                     fix: format!("raise the gate: height_m = {height}"),
                 });
             }
@@ -154,9 +153,7 @@ pub(super) fn warnings(case: &Case, valid: bool) -> Vec<Problem> {
         warnings.coefficient(&at, boundary.friction.unwrap_or(0.0));
         if valid {
             warnings.outside(&at, case, boundary);
-            if case.numerics.boundary_contact == BoundaryContact::Nodes {
-                warnings.brim(&at, case, boundary);
-            }
+            warnings.brim(&at, case, boundary);
         }
     }
     for (index, contact) in case.contacts.iter().enumerate() {
