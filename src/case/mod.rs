@@ -36,7 +36,7 @@ pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
     Body, Case, Gravity, Integration, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run, Settle,
-    SideWalls, Stages, Tilt,
+    SettleScale, SideWalls, Stages, Tilt,
 };
 pub use validate::{Findings, Problem, validate};
 

@@ -6,6 +6,7 @@ pub use super::deposit::{DepositResults, FurtherBase};
 use super::experiment::Experiment;
 use super::means::arrival;
 use super::records::{HistoryRow, Records};
+use super::scales::Scales;
 use super::stage::End;
 use super::structure::{self, StructureResults};
 use super::{balances, barrier, deposit};
@@ -24,6 +25,8 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Discretisation and stepping.
     pub stepping: Stepping,
+    /// What the flow was measured by.
+    pub scales: Scales,
     /// Forces on the barrier.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barrier: Option<BarrierResults>,
@@ -61,7 +64,7 @@ pub struct Stepping {
     pub settle_time_s: f64,
     /// Steps spent settling and tilting.
     pub settle_steps: u64,
-    /// Residual at release: rms speed / sqrt(g x height).
+    /// Residual at release: rms speed / sqrt(g x height) of what flows.
     pub settle_residual: f64,
     /// End of the run, s after release.
     pub end_s: f64,
@@ -98,11 +101,13 @@ pub struct FurtherBarrier {
 pub struct FrontPassage {
     /// Where, m.
     pub x_m: f64,
-    /// When, s.
+    /// When 1 % of the mass that flows had passed it, s.
     pub time_s: f64,
-    /// Velocity of its first 0.05 m, m/s.
+    /// When the edge, the foremost point, passed it, s.
+    pub edge_time_s: f64,
+    /// Velocity of its first `front_length_m` of `[scales]`, m/s.
     pub velocity_m_per_s: f64,
-    /// Largest depth in its first 0.1 m, m.
+    /// Largest depth in twice that length, m.
     pub depth_m: f64,
     /// velocity / sqrt(g depth cos).
     pub froude_1: f64,
@@ -117,10 +122,14 @@ impl Summary {
             End::Stopped => "stopped by the user; everything computed until then is here",
         };
         let mut summary = Self::build(case, experiment, records, status.into());
-        if end != End::Rest {
+        if end == End::Rest {
+            summary.warn_at_rest();
+        } else {
             let text =
                 "the material was not seen to come to rest: static values are means over the last 0.3 s, no more";
             summary.warnings.push(text.into());
+            let gates = experiment.simulation().boundaries().iter().filter(|b| b.is_opening());
+            summary.warnings.extend(gates.map(|b| format!("gate `{}` was still opening when the run ended", b.name)));
         }
         summary
     }
@@ -131,19 +140,27 @@ impl Summary {
     }
 
     fn build(case: &Case, experiment: &Experiment, records: &Records, status: String) -> Self {
+        let scales = *experiment.scales();
+        let front = passages(case, records, &scales);
+        let mut barrier = experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history, &scales));
+        if let (Some(barrier), Some(front)) = (barrier.as_mut().filter(|b| b.arrival_s.is_some()), front.last()) {
+            barrier.compare(front, &scales, experiment.simulation().thickness());
+        }
+        let structure = |b| structure::results(b, records, &records.energy, &scales);
         let mut summary = Self {
             status,
             checkdam_version: env!("CARGO_PKG_VERSION").into(),
             warnings: Vec::new(),
             stepping: stepping(experiment),
-            barrier: experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history)),
-            structure: experiment.barriers().first().and_then(|b| structure::results(b, records, &records.energy)),
+            scales,
+            barrier,
+            structure: experiment.barriers().first().and_then(structure),
             further_barriers: further_barriers(experiment, records),
             deposit: deposit::results(experiment, records),
             further_bases: deposit::further_bases(experiment, records),
             energy: balances::energy(records),
             momentum: balances::momentum(records),
-            front: passages(case, records),
+            front,
             case: case.clone(),
         };
         summary.warn(experiment);
@@ -161,10 +178,10 @@ impl Summary {
         let sim = experiment.simulation();
         let h = sim.spacing();
         let mut warn = |text: String| self.warnings.push(text);
-        if self.energy.energy_residual_1.abs() > 0.02 {
+        if self.energy.residual_of_released_1 > 0.02 {
             warn(format!(
-                "energy does not close: {:.2} % of E0 is not accounted for",
-                100.0 * self.energy.energy_residual_1
+                "energy does not close: {:.2} % of what was released is not accounted for",
+                100.0 * self.energy.residual_of_released_1
             ));
         }
         if self.momentum.momentum_closure_1 > 1e-10 {
@@ -195,15 +212,18 @@ impl Summary {
             further.barrier.iter().for_each(|b| b.warn(&name, &mut warn));
             further.structure.iter().for_each(|s| s.warn(&name, &mut warn));
         }
+    }
+
+    /// What is true at rest alone.
+    fn warn_at_rest(&mut self) {
         if let Some(d) = &self.deposit
             && d.mobilised_1.abs() < 0.9
+            && let Some([low, high]) = d.equilibrium_limits_n
         {
-            warn(format!(
-                "the base mobilises {:.0} % of its friction at rest: any force between {:.1} and {:.1} N is in equilibrium, \
+            self.warnings.push(format!(
+                "the base mobilises {:.0} % of its friction at rest: any force between {low:.1} and {high:.1} N is in equilibrium, \
                  and which one it is depends on the history",
-                100.0 * d.mobilised_1,
-                d.equilibrium_limits_n[0],
-                d.equilibrium_limits_n[1]
+                100.0 * d.mobilised_1
             ));
         }
     }
@@ -231,26 +251,29 @@ fn further_barriers(experiment: &Experiment, records: &Records) -> Vec<FurtherBa
     let with_records = experiment.barriers().iter().skip(1).zip(&records.further);
     let results = with_records.map(|(b, own)| FurtherBarrier {
         name: b.name().into(),
-        barrier: barrier::results(b.force(), &own.history),
-        structure: structure::results(b, own, &records.energy),
+        barrier: barrier::results(b.force(), &own.history, experiment.scales()),
+        structure: structure::results(b, own, &records.energy, experiment.scales()),
     });
     results.collect()
 }
 
-fn passages(case: &Case, records: &Records) -> Vec<FrontPassage> {
+fn passages(case: &Case, records: &Records, scales: &Scales) -> Vec<FrontPassage> {
     let g = case.gravity.magnitude_m_per_s2 * libm::cos(case.gravity.inclination_deg.to_radians());
+    let way = scales.flow_direction_1;
+    let first = |x: f64, place: fn(&HistoryRow) -> f64| records.history.iter().find(|r| way * place(r) >= way * x);
     let at = |row: &HistoryRow, x: f64| FrontPassage {
         x_m: x,
         time_s: row.time,
+        edge_time_s: first(x, |r| r.front.edge).map_or(row.time, |r| r.time),
         velocity_m_per_s: row.front.velocity,
         depth_m: row.front.depth,
         froude_1: row.front.velocity / (g * row.front.depth).sqrt(),
     };
     let stations = case.gauges.stations_m.iter();
-    let mut passages: Vec<_> =
-        stations.filter_map(|&x| records.history.iter().find(|r| r.front.x >= x).map(|row| at(row, x))).collect();
+    let mut passages: Vec<_> = stations.filter_map(|&x| first(x, |r| r.front.x).map(|row| at(row, x))).collect();
     // Just before the barrier is touched.
-    if let Some(k) = records.history.iter().position(|r| Some(r.time) == arrival(&records.history))
+    let arrived = arrival(&records.history, scales.arrival_force_n);
+    if let Some(k) = records.history.iter().position(|r| Some(r.time) == arrived)
         && k > 0
     {
         let row = &records.history[k - 1];
