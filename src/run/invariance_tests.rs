@@ -95,8 +95,8 @@ fn moved(by: f64, without_barrier: bool) -> Case {
     }
     let shift = |x: &mut f64| *x += by;
     let pair = |x: &mut [f64; 2]| x.iter_mut().for_each(shift);
-    (pair(&mut case.domain.x_m), pair(&mut case.domain.y_m));
-    case.bodies.iter_mut().for_each(|b| (pair(&mut b.x_m), pair(&mut b.y_m)).0);
+    [&mut case.domain.x_m, &mut case.domain.y_m].into_iter().for_each(pair);
+    case.bodies.iter_mut().flat_map(|b| [&mut b.x_m, &mut b.y_m]).for_each(pair);
     for b in &mut case.boundaries {
         b.point_m.iter_mut().chain(&mut b.foot_m).for_each(pair);
     }
