@@ -6,8 +6,9 @@ use super::records::{MomentumRow, Records};
 use crate::boundary::Friction;
 use serde::Serialize;
 
-/// Share of the weight that what is neither base nor barrier may hold for the limits of equilibrium to be given: round-off, and more.
-const OTHERS: f64 = 1e-3;
+/// Share of the weight that what is neither base nor barrier may hold for the limits of equilibrium to be given: the hundredth to which
+/// equilibrium at rest is judged. The limits are those of all but the base together, and the barrier's differ by no more than that.
+const OTHERS: f64 = 0.01;
 
 /// Equilibrium at the end along the first base, positive where the flow runs: weight, base friction, side walls, barrier.
 #[derive(Debug, Clone, Serialize)]
