@@ -291,6 +291,12 @@ impl Boundary {
         }
     }
 
+    /// Whether the boundary is a gate that was released and is still being lifted.
+    pub fn is_opening(&self) -> bool {
+        let lifts = matches!(self.opening, Some(Opening::Lift { opening, .. }) if self.free_below < opening);
+        self.released && lifts && !self.is_gone()
+    }
+
     /// Whether the boundary holds nothing any more (a gate that is gone).
     pub fn is_gone(&self) -> bool {
         self.free_below == f64::INFINITY

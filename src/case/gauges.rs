@@ -23,9 +23,17 @@ pub struct Gauges {
     /// `["base", "second"]`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bases: Vec<String>,
-    /// Samples per second; a sample is the mean over its interval. Default: `1000.0`. Allowed: above 0; at most 1e8
-    /// samples in a run. Example: `500`.
+    /// Rows per second of the tables; a row is the mean over its interval. What `summary.toml` says does not depend on it. Default:
+    /// `1000.0`. Allowed: above 0; at most 1e8 rows in a run, and at least ten if below 1000. Example: `500`.
     pub sample_rate_hz: f64,
+    /// Length behind the front over which its velocity is averaged; its depth is the largest within twice that length. Default: 0.158
+    /// times the square root of the area of what flows at the start. Allowed: above 0. Example: `0.05`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub front_length_m: Option<f64>,
+    /// Force on a barrier from which the flow counts as arrived. Default: a 600th of the weight of what flows at the start. Allowed:
+    /// 0 or more. Example: `0.5`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arrival_force_n: Option<f64>,
     /// Flow depth and velocity are recorded at these x. Default: `[]`. Allowed: any number of x inside the domain.
     /// Example: `[0.5, 0.7]`.
     pub stations_m: Vec<f64>,
@@ -63,6 +71,8 @@ impl Default for Gauges {
             base: None,
             bases: Vec::new(),
             sample_rate_hz: 1000.0,
+            front_length_m: None,
+            arrival_force_n: None,
             stations_m: Vec::new(),
             window_x_m: None,
             window_y_m: None,

@@ -37,7 +37,7 @@ pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
     Body, Case, Gravity, Integration, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run,
-    Settle, SideWalls, Stages, Tilt,
+    Settle, SettleScale, SideWalls, Stages, Tilt,
 };
 #[cfg(test)]
 pub(crate) use validate::AGENTS;

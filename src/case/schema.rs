@@ -179,11 +179,27 @@ pub struct Stages {
 pub struct Settle {
     /// Rate at which the damping removes momentum. Allowed: 0 or more. Example: `60`.
     pub damping_per_s: f64,
-    /// The stage ends when rms speed / sqrt(g x height of the body) falls below this. Allowed: above 0. Example:
-    /// `1.0e-4`.
+    /// The stage ends when rms speed / sqrt(g x height) of what flows has stayed below this for a period of its slowest
+    /// oscillation. Allowed: above 0. Example: `1.0e-4`.
     pub residual: f64,
     /// An error if the residual is not reached by this time. Allowed: above 0. Example: `5.0`.
     pub max_time_s: f64,
+    /// What has the height and the period by which the residual is judged. Default: `"flow"`. Example: `"flow"`.
+    #[serde(default)]
+    pub scale: SettleScale,
+}
+
+/// What has the height and the period by which settling is judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SettleScale {
+    /// Everything that flows, as one: from its lowest corner to its highest, whether it is written as one body or as several.
+    #[default]
+    Flow,
+    /// The tallest of all bodies, structures among them, with the slowest waves of any of them: as checkdam did first. Then a body that is
+    /// written as two settles to another residual.
+    TallestBody,
 }
 
 /// Tilting of the flume, followed by a second settling.

@@ -84,6 +84,11 @@ fn report(summary: &Summary, directory: &Path) {
             b.peak_20ms_n,
             b.peak_20ms_time_s
         );
+        if let (Some(alpha), Some(elastic)) = (b.peak_20ms_alpha_1, b.elastic_impact_n) {
+            say!(
+                "  that is {alpha:.2} rho v^2 h b of the front; an elastic body of its section would give rho c v h b = {elastic:.1} N"
+            );
+        }
         say!(
             "  static force: {:.1} N (from the stress of 1, 2, 3 layers: {:.1}, {:.1}, {:.1} N), acting {:.3} m above the foot",
             b.static_force_n,
@@ -93,21 +98,22 @@ fn report(summary: &Summary, directory: &Path) {
             b.static_height_of_action_m
         );
         say!(
-            "  run-up: {:.3} m; over the barrier: {:.4} kg; past it: {:.4} kg",
+            "  run-up: {:.3} m (95 % of the points at the wall), highest point {:.3} m; over the barrier: {:.4} kg; past it: {:.4} kg",
+            b.run_up_p95_m,
             b.run_up_m,
             b.overtopped_kg,
             b.passed_kg
         );
     }
     if let Some(d) = &summary.deposit {
+        let limits = d.equilibrium_limits_n.map(|[low, high]| format!("; equilibrium allows {low:.1} to {high:.1} N"));
         say!(
-            "  at the end: m g sin = {:.1} N, base friction {:.1} of +-{:.1} N (mobilised share {:.2}); equilibrium allows {:.1} to {:.1} N",
+            "  at the end: m g sin = {:.1} N, base friction {:.1} of +-{:.1} N (mobilised share {:.2}){}",
             d.weight_along_n,
             d.base_friction_n,
             d.friction_limit_n,
             d.mobilised_1,
-            d.equilibrium_limits_n[0],
-            d.equilibrium_limits_n[1]
+            limits.unwrap_or_default()
         );
     }
     let e = &summary.energy;

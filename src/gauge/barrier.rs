@@ -1,7 +1,11 @@
 //! Force on a barrier from the impulses that it gave to the grid nodes: on a rigid boundary, or on a body in contact.
 
+use super::running::RunningMean;
 use crate::boundary::Boundary;
 use crate::simulation::{ContactPoint, Simulation};
+
+/// Length of the mean whose largest value is kept, s: the paper's archive interval.
+const PEAK_WINDOW: f64 = 0.02;
 
 /// Mean forces over a sampling interval, on the boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -48,6 +52,7 @@ pub struct BarrierGauge {
     largest: f64,
     peak_force: Peak,
     peak_moment: Peak,
+    running: RunningMean,
     total_impulse: [f64; 2],
     bin_height: f64,
     profile: Vec<f64>,
@@ -81,6 +86,7 @@ impl BarrierGauge {
             largest: 0.0,
             peak_force: Peak::default(),
             peak_moment: Peak::default(),
+            running: RunningMean::new(PEAK_WINDOW),
             total_impulse: [0.0; 2],
             bin_height,
             profile: vec![0.0; bins],
@@ -109,6 +115,7 @@ impl BarrierGauge {
         if moment / dt > self.peak_moment.value {
             self.peak_moment = Peak { value: moment / dt, time: simulation.time() };
         }
+        self.running.add(normal, dt, simulation.time());
         self.profile_duration += dt;
         if normal != 0.0 || tangential != 0.0 {
             let (profile, height) = (&mut self.profile, self.bin_height);
@@ -176,6 +183,11 @@ impl BarrierGauge {
     /// Largest normal force of a single step, N, and when.
     pub fn peak_force(&self) -> Peak {
         self.peak_force
+    }
+
+    /// Largest mean normal force over 20 ms, N, and the middle of that time.
+    pub fn peak_mean(&self) -> Peak {
+        self.running.peak()
     }
 
     /// Largest overturning moment of a single step, N m, and when.

@@ -7,7 +7,7 @@ use crate::simulation::Simulation;
 pub struct BaseSample {
     /// Force along its normal, N; positive when it carries.
     pub normal: f64,
-    /// Force along its tangent, N; positive down the flume.
+    /// Force along it, N; positive where the flow runs.
     pub friction: f64,
 }
 
@@ -15,14 +15,16 @@ pub struct BaseSample {
 #[derive(Debug, Clone)]
 pub struct BaseGauge {
     boundary: usize,
+    /// 1 if its tangent points where the flow runs, else -1.
+    along: f64,
     impulse: [f64; 2],
     duration: f64,
 }
 
 impl BaseGauge {
-    /// A gauge on the boundary with this index.
-    pub fn new(boundary: usize) -> Self {
-        Self { boundary, impulse: [0.0; 2], duration: 0.0 }
+    /// A gauge on the boundary with this index, along which the flow runs with its tangent (`along` = 1) or against it (-1).
+    pub fn new(boundary: usize, along: f64) -> Self {
+        Self { boundary, along, impulse: [0.0; 2], duration: 0.0 }
     }
 
     /// Index of the boundary.
@@ -34,7 +36,7 @@ impl BaseGauge {
     pub fn after_step(&mut self, simulation: &Simulation) {
         let (b, t) = (&simulation.boundaries()[self.boundary], &simulation.step_tallies()[self.boundary]);
         self.impulse[0] += t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y;
-        self.impulse[1] += t.impulse[0] * b.tangent.x + t.impulse[1] * b.tangent.y;
+        self.impulse[1] += self.along * (t.impulse[0] * b.tangent.x + t.impulse[1] * b.tangent.y);
         self.duration += simulation.time_step().dt;
     }
 

@@ -26,6 +26,35 @@ pub(super) fn flowing_blocks<'a>(
     simulation.blocks().filter(move |(body, ..)| !barriers.contains(body) && may_flow(simulation, *body))
 }
 
+/// What flows, when it has not moved yet.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Released {
+    /// kg.
+    pub mass: f64,
+    /// m3.
+    pub volume: f64,
+    /// Its centre of mass along x, m.
+    pub centre: f64,
+    /// Along x, N s.
+    pub momentum: f64,
+}
+
+/// Mass, volume, centre and momentum of what flows (see [`flowing`]).
+pub fn released(simulation: &Simulation, barriers: &[usize]) -> Released {
+    let mut sum = Released::default();
+    flowing_blocks(simulation, barriers).for_each(|(body, block, n)| {
+        let body = &simulation.bodies()[body];
+        for l in 0..n {
+            sum.mass += body.point_mass;
+            sum.volume += body.point_volume * block.volume_ratio[l];
+            sum.centre += body.point_mass * block.x[0][l];
+            sum.momentum += body.point_mass * block.v[0][l];
+        }
+    });
+    sum.centre /= sum.mass.max(f64::MIN_POSITIVE);
+    sum
+}
+
 /// Mass, momentum and kinetic energy of some bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {

@@ -6,7 +6,7 @@ use crate::scaffold::THICKNESS;
 #[test]
 fn no_material_has_no_front() {
     let sim = simulation(0.02, [vec![], vec![]], vec![]);
-    assert_eq!(FrontGauge::default().sample(&sim, &[]), Front::default());
+    assert_eq!(FrontGauge::new(1.0, 0.05).sample(&sim, &[]), Front::default());
     assert_eq!(StationGauge::new(0.0).sample(&sim, &[]), StationSample::default());
     assert!(velocity_field(&sim, &[]).is_empty());
 }
@@ -23,7 +23,7 @@ fn barriers_do_not_flow() {
         let sim = Simulation::new(scene);
         let barrier: &[usize] = if weightless { &[] } else { &[0] };
         assert!(flowing(&sim, barrier).all(|(body, _)| body == 1) && flowing(&sim, barrier).count() == 2);
-        let front = FrontGauge::default().sample(&sim, barrier);
+        let front = FrontGauge::new(1.0, 0.05).sample(&sim, barrier);
         assert!(front.x == 1.05 && front.velocity == 3.0, "{front:?}");
         let station = StationGauge::new(1.0).sample(&sim, barrier);
         assert!(

@@ -5,26 +5,30 @@ use crate::simulation::Simulation;
 
 /// Share of the mass ahead of what counts as the front: single grains do not.
 pub const FRONT_SHARE: f64 = 0.01;
-/// Length behind the front over which its velocity is averaged, m.
-pub const FRONT_LENGTH: f64 = 0.05;
 
-/// The front along x.
+/// The front along x. Ahead is where the flow runs: to the right or to the left.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Front {
-    /// Position that 1 % of the mass has passed, m.
+    /// Position that 1 % of the mass has passed, m: the 99 % quantile of the mass. In a long flow it lies far behind the edge.
     pub x: f64,
-    /// Mean velocity along x of the mass within 0.05 m behind it (and all ahead), m/s.
+    /// The edge: position of the foremost point, m.
+    pub edge: f64,
+    /// Mean velocity along x of the mass within a length behind it (and all ahead), m/s; positive ahead.
     pub velocity: f64,
-    /// Largest flow depth within 0.1 m behind it, m.
+    /// Largest flow depth within twice that length behind it, m.
     pub depth: f64,
 }
 
-/// A point of the flow's head: x (m), velocity along x (m/s), mass (kg), volume (m3).
+/// A point of the flow's head: x (m) and velocity along x (m/s), both positive ahead, mass (kg), volume (m3).
 type HeadPoint = [f64; 4];
 
 /// Finds the front of the flow. It keeps nothing but the memory that it works in.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct FrontGauge {
+    /// 1 where the flow runs along x, -1 where it runs against it.
+    ahead: f64,
+    /// Length behind the front over which its velocity is averaged, m.
+    length: f64,
     keys: Vec<i64>,
     order: Vec<(i64, u32)>,
     found: Vec<HeadPoint>,
@@ -47,6 +51,11 @@ fn place(key: i64) -> f64 {
 }
 
 impl FrontGauge {
+    /// Of a flow that runs along x (`ahead` = 1) or against it (-1), with its velocity averaged over `length` (m) behind the front.
+    pub fn new(ahead: f64, length: f64) -> Self {
+        Self { ahead, length, keys: Vec::new(), order: Vec::new(), found: Vec::new(), head: Vec::new() }
+    }
+
     /// The front now of what flows (see [`flowing`](super::flow::flowing)): of all bodies but `barriers`, by index. At the origin and at
     /// rest where nothing flows.
     ///
@@ -54,26 +63,27 @@ impl FrontGauge {
     /// are ahead of it. That needs points of one mass and no two at the same x; else all of them are sorted.
     pub fn sample(&mut self, simulation: &Simulation, barriers: &[usize]) -> Front {
         let bodies = simulation.bodies();
-        let Self { keys, order, found, head } = self;
+        let Self { ahead: way, length, keys, order, found, head } = self;
+        let (way, length) = (*way, *length);
         keys.clear();
         let (mut one_mass, mut of_point) = (true, None);
         flowing_blocks(simulation, barriers).for_each(|(body, block, n)| {
             one_mass &= bodies[body].point_mass == *of_point.get_or_insert(bodies[body].point_mass);
-            keys.extend(block.x[0][..n].iter().map(|x| key(*x)));
+            keys.extend(block.x[0][..n].iter().map(|x| key(way * *x)));
         });
         let (Some(of_point), count) = (of_point, keys.len()) else { return Front::default() };
         // Depth from the volume in strips of two cells.
         let strip = 2.0 * simulation.spacing();
-        let strips = (0.1 / strip).round().max(1.0) as usize;
+        let strips = (2.0 * length / strip).round().max(1.0) as usize;
         let depth_reach = strips as f64 * strip;
 
         let find = |least: f64, found: &mut Vec<HeadPoint>| {
             found.clear();
             flowing_blocks(simulation, barriers).for_each(|(body, block, n)| {
                 let body = &bodies[body];
-                for l in (0..n).filter(|&l| block.x[0][l] >= least) {
+                for l in (0..n).filter(|&l| way * block.x[0][l] >= least) {
                     let volume = body.point_volume * block.volume_ratio[l].min(MAX_VOLUME_RATIO);
-                    found.push([block.x[0][l], block.v[0][l], body.point_mass, volume]);
+                    found.push([way * block.x[0][l], way * block.v[0][l], body.point_mass, volume]);
                 }
             });
         };
@@ -87,7 +97,7 @@ impl FrontGauge {
             });
             let ahead = ahead.count().min(count - 1);
             let x = place(*keys.select_nth_unstable(ahead).1);
-            find((x - FRONT_LENGTH).min(x - depth_reach), found);
+            find((x - length).min(x - depth_reach), found);
             order.clear();
             order.extend(found.iter().zip(0..).map(|(p, number)| (key(p[0]), number)));
             order.sort_unstable();
@@ -107,7 +117,7 @@ impl FrontGauge {
         });
         let x = front.map_or(0.0, |p| p[0]);
         let (mut momentum, mut moving) = (0.0, 0.0);
-        for [_, v, m, _] in head.iter().take_while(|p| p[0] >= x - FRONT_LENGTH) {
+        for [_, v, m, _] in head.iter().take_while(|p| p[0] >= x - length) {
             momentum += m * v;
             moving += m;
         }
@@ -116,7 +126,8 @@ impl FrontGauge {
             volumes[(((x - p[0]) / strip) as usize).min(strips - 1)] += p[3];
         }
         let depth = volumes.iter().fold(0.0, |a: f64, v| a.max(v / (strip * simulation.thickness())));
-        Front { x, velocity: momentum / moving, depth }
+        let edge = head.first().map_or(x, |p| p[0]);
+        Front { x: way * x, edge: way * edge, velocity: momentum / moving, depth }
     }
 }
 

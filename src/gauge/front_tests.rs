@@ -4,6 +4,9 @@ use super::*;
 use crate::body::Particle;
 use crate::scaffold::THICKNESS;
 
+/// Length behind the front, m.
+const LENGTH: f64 = 0.05;
+
 #[test]
 fn front_is_where_one_percent_of_the_mass_has_passed() {
     // 300 kg: grains of 1 and 1 kg are not the front, the next of 2 kg is. The rest lies far behind.
@@ -17,9 +20,15 @@ fn front_is_where_one_percent_of_the_mass_has_passed() {
     heavy.extend((0..146).map(|k| point(1.0 - 1e-3 * f64::from(k), 0.0, [-100.0, 0.0], 1.0)));
     let sim = simulation(0.02, [light, heavy], vec![]);
     assert!(close(sim.mass(), 300.0));
-    let mut gauge = FrontGauge { keys: vec![5], order: vec![(5, 5)], found: vec![[5.0; 4]], head: vec![[5.0; 4]] };
+    let mut gauge = FrontGauge {
+        keys: vec![5],
+        order: vec![(5, 5)],
+        found: vec![[5.0; 4]],
+        head: vec![[5.0; 4]],
+        ..FrontGauge::new(1.0, LENGTH)
+    };
     let front = gauge.sample(&sim, &[]);
-    assert_eq!(front.x, 1.5);
+    assert_eq!((front.x, front.edge), (1.5, 2.0));
     assert!(close(front.velocity, (9.0 + 8.0 + 2.0 * 7.0 + 2.0 * 1.0) / 6.0), "{front:?}");
 }
 
@@ -32,7 +41,7 @@ fn depth_of_the_front_is_that_of_the_fullest_strip() {
     let deepest = |behind: &[(f64, &[f64])]| {
         let points = behind.iter().flat_map(|&(back, ratios)| strip(back, ratios)).collect();
         let sim = simulation(0.02, [points, vec![]], vec![]);
-        let front = FrontGauge::default().sample(&sim, &[]);
+        let front = FrontGauge::new(1.0, LENGTH).sample(&sim, &[]);
         assert_eq!(front.x, 1.5);
         front.depth * 0.04 * THICKNESS / BODIES[0].1
     };
@@ -43,17 +52,17 @@ fn depth_of_the_front_is_that_of_the_fullest_strip() {
     // The far end of the last strip is open.
     let points = [strip(0.0, &[1.0]), strip(0.125, &[1.0])].concat();
     let sim = simulation(0.0625, [points, vec![]], vec![]);
-    assert!(close(FrontGauge::default().sample(&sim, &[]).depth * 0.125 * THICKNESS, BODIES[0].1));
+    assert!(close(FrontGauge::new(1.0, LENGTH).sample(&sim, &[]).depth * 0.125 * THICKNESS, BODIES[0].1));
     // What is ahead of the front has no depth.
     let mut points = strip(0.0, &[1.0; 200]);
     points.extend(strip(-1.0, &[1.0, 1.0]));
     let sim = simulation(0.02, [points, vec![]], vec![]);
-    let depth = FrontGauge::default().sample(&sim, &[]).depth;
+    let depth = FrontGauge::new(1.0, LENGTH).sample(&sim, &[]).depth;
     assert!(close(depth * 0.04 * THICKNESS, 200.0 * BODIES[0].1));
     // On a coarse grid one strip is left, wider than 0.1 m.
     let points = [strip(0.0, &[1.0]), strip(0.3, &[1.0])].concat();
     let sim = simulation(0.2, [points, vec![]], vec![]);
-    assert!(close(FrontGauge::default().sample(&sim, &[]).depth * 0.4 * THICKNESS, 2.0 * BODIES[0].1));
+    assert!(close(FrontGauge::new(1.0, LENGTH).sample(&sim, &[]).depth * 0.4 * THICKNESS, 2.0 * BODIES[0].1));
 }
 
 /// The front as it was first written: all points in order.
@@ -73,7 +82,7 @@ fn front_of_all(simulation: &Simulation) -> Front {
     });
     let x = first.map_or(0.0, |p| p.0);
     let (mut momentum, mut head) = (0.0, 0.0);
-    for p in all.iter().take_while(|p| p.0 >= x - FRONT_LENGTH) {
+    for p in all.iter().take_while(|p| p.0 >= x - LENGTH) {
         momentum += p.2 * p.1;
         head += p.2;
     }
@@ -84,7 +93,7 @@ fn front_of_all(simulation: &Simulation) -> Front {
         volumes[(((x - p.0) / strip) as usize).min(strips - 1)] += p.3;
     }
     let depth = volumes.iter().fold(0.0, |a: f64, v| a.max(v / (strip * simulation.thickness())));
-    Front { x, velocity: momentum / head, depth }
+    Front { x, edge: all[0].0, velocity: momentum / head, depth }
 }
 
 #[test]
@@ -94,7 +103,7 @@ fn a_head_in_order_gives_the_bits_of_all_points_in_order() {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1u64 << 53) as f64
     };
-    let mut gauge = FrontGauge::default();
+    let mut gauge = FrontGauge::new(1.0, LENGTH);
     for (k, counts) in [[1, 0], [7, 0], [300, 0], [2000, 0], [300, 200]].into_iter().enumerate() {
         for ties in [false, true] {
             let mut points = |count: usize| -> Vec<Particle> {
@@ -105,8 +114,20 @@ fn a_head_in_order_gives_the_bits_of_all_points_in_order() {
                 };
                 (0..count).map(|_| one()).collect()
             };
-            let sim = simulation(0.02, [points(counts[0]), points(counts[1])], vec![]);
-            assert_eq!(gauge.sample(&sim, &[]), front_of_all(&sim), "{k}, {ties}");
+            let both = [points(counts[0]), points(counts[1])];
+            let sim = simulation(0.02, both.clone(), vec![]);
+            let front = gauge.sample(&sim, &[]);
+            assert_eq!(front, front_of_all(&sim), "{k}, {ties}");
+            // The same flow to the left, to the last bit where the order of the sums is known.
+            let mirrored = |points: &[Particle]| -> Vec<Particle> {
+                points.iter().map(|p| Particle { x: [-p.x[0], p.x[1]], v: [-p.v[0], p.v[1]], ..*p }).collect()
+            };
+            let sim = simulation(0.02, both.each_ref().map(|p| mirrored(p)), vec![]);
+            let left = FrontGauge::new(-1.0, LENGTH).sample(&sim, &[]);
+            let velocity = if ties && close(left.velocity, front.velocity) { front.velocity } else { left.velocity };
+            let depth = if ties && close(left.depth, front.depth) { front.depth } else { left.depth };
+            let expected = Front { x: -front.x, edge: -front.edge, ..front };
+            assert_eq!(Front { velocity, depth, ..left }, expected, "{k}, {ties}");
         }
     }
 }

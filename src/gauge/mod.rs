@@ -5,6 +5,7 @@
 //! - [`StructureGauge`]: a barrier that is a body: its clamp, its inertia, how it bends, whether it tears, the material beside it.
 //! - [`BaseGauge`]: force of a boundary on what lies on it.
 //! - `layers`: the same force from the stress of the nearest material points.
+//! - [`RunningMean`]: the largest mean of a force over 20 ms.
 //! - [`ReactionGauge`]: force and moment on a clamp, or between bodies.
 //! - [`penetration`]: how deep material lies inside a structure or a boundary.
 //! - [`FrontGauge`]: the front of the flow, its velocity and depth.
@@ -27,6 +28,7 @@ pub(crate) mod layers;
 mod passage;
 pub mod penetration;
 mod reaction;
+mod running;
 mod station;
 pub mod structure;
 #[cfg(test)]
@@ -38,9 +40,10 @@ mod window;
 pub use barrier::{BarrierGauge, ForceSample, Peak, contact_impulse};
 pub use base::{BaseGauge, BaseSample};
 pub use field::{FieldCell, velocity_field};
-pub use front::{FRONT_LENGTH, FRONT_SHARE, Front, FrontGauge};
+pub use front::{FRONT_SHARE, Front, FrontGauge};
 pub use passage::{Passage, PassageGauge};
 pub use reaction::{Reaction, ReactionGauge};
+pub use running::RunningMean;
 pub use station::{StationGauge, StationSample};
 pub use structure::{StructureGauge, StructureSample};
 pub use wall_state::{WallState, wall_state};

@@ -22,5 +22,19 @@ fn run_up_counts_at_the_face_and_not_behind_it() {
     let sim = simulation(0.25, [light, heavy], vec![wall(1.0)]);
     let state = wall_state(&sim, 0);
     // One cell behind the face is not yet behind the wall; 1.5 cells before it still is at the wall.
-    assert_eq!(state, WallState { run_up: 0.7, behind: 3.0 });
+    assert_eq!(state, WallState { run_up: 0.7, run_up_p95: 0.0, behind: 3.0 });
+}
+
+#[test]
+fn a_percentile_is_that_of_twenty_points_or_more() {
+    let column = |n: u32| (1..=n).rev().map(f64::from).collect::<Vec<_>>();
+    assert_eq!(percentile(&mut column(19)), 0.0);
+    assert_eq!(percentile(&mut column(20)), 19.0);
+    assert_eq!(percentile(&mut column(100)), 95.0);
+    // One point of a hundred that flies up changes next to nothing.
+    let mut splash = column(100);
+    splash[0] = 1e3;
+    assert_eq!(percentile(&mut splash), 95.0);
+    // Below the foot is no run-up.
+    assert_eq!(percentile(&mut [-1.0; 30]), 0.0);
 }

@@ -140,6 +140,12 @@ impl EnergyBalance {
         balance
     }
 
+    /// What has been released by now, J: the kinetic and elastic energy at the opening, and what gravity has given since. It does not
+    /// depend on the level at which gravitational energy is zero. What left the domain took its share along.
+    pub fn released(&self) -> f64 {
+        self.initial - self.gravitational - self.outflow
+    }
+
     /// Sum of everything but the residual, J.
     pub fn accounted(&self) -> f64 {
         self.kinetic

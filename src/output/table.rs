@@ -9,20 +9,34 @@ use super::OutputError;
 
 /// Significant digits written.
 pub const DIGITS: usize = 9;
+/// Significant digits of a place that is a kilometre or more from the origin: a micrometre of a northing.
+const PLACE_DIGITS: usize = 13;
+
+/// Whether a column holds places, by its name: `x_m`, `front_x_m`, `y_m`.
+fn is_place(name: &str) -> bool {
+    let end = |end: &str| name.strip_suffix(end).is_some_and(|start| start.is_empty() || start.ends_with('_'));
+    end("x_m") || end("y_m")
+}
+
+/// Significant digits of a value, of a place or not.
+fn digits(value: f64, place: bool) -> usize {
+    if place && value.abs() >= 1000.0 { PLACE_DIGITS } else { DIGITS }
+}
 
 /// Bytes collected before they are handed to the file.
 const BUFFER_BYTES: usize = 1 << 16;
 
 /// Streams rows of numbers to a CSV file.
 ///
-/// Numbers are rounded to a fixed count of significant digits and then written in the shortest form that reads back as
+/// Numbers are rounded to nine significant digits, places beyond a kilometre to thirteen, and then written in the shortest form that reads back as
 /// the rounded value: plain (`0.00125`, `350`) from 1e-5 up to 1e15, with an exponent (`2.5e-9`) outside. NaN is an
 /// empty cell. The file always ends in a complete row, also after a failed write.
 #[derive(Debug)]
 pub struct TableWriter {
     path: PathBuf,
     file: File,
-    columns: usize,
+    /// Which columns hold places, one for each.
+    places: Vec<bool>,
     buffer: Vec<u8>,
     scratch: String,
     /// Length of the file, always the end of a row.
@@ -64,7 +78,7 @@ impl TableWriter {
         let mut writer = Self {
             path,
             file,
-            columns: columns.len(),
+            places: columns.iter().map(|name| is_place(name.as_ref())).collect(),
             buffer: header.into_bytes(),
             scratch: String::new(),
             bytes: 0,
@@ -80,8 +94,8 @@ impl TableWriter {
     /// # Errors
     /// [`OutputError::RowLength`] (the row is not taken), or [`OutputError::Append`] (it is held for the next attempt).
     pub fn row(&mut self, values: &[f64]) -> Result<(), OutputError> {
-        if values.len() != self.columns {
-            let (expected, found) = (self.columns, values.len());
+        if values.len() != self.places.len() {
+            let (expected, found) = (self.places.len(), values.len());
             return Err(OutputError::RowLength { path: self.path.clone(), expected, found });
         }
         if let [value] = values
@@ -89,12 +103,12 @@ impl TableWriter {
         {
             self.buffer.extend_from_slice(b"\"\""); // a blank line would be no row at all
         }
-        for (k, value) in values.iter().enumerate() {
+        for (k, (value, place)) in values.iter().zip(&self.places).enumerate() {
             if k > 0 {
                 self.buffer.push(b',');
             }
             self.scratch.clear();
-            push_number(&mut self.scratch, *value, DIGITS);
+            push_number(&mut self.scratch, *value, digits(*value, *place));
             self.buffer.extend_from_slice(self.scratch.as_bytes());
         }
         self.buffer.push(b'\n');

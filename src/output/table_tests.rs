@@ -64,6 +64,18 @@ fn seventeen_digits_keep_every_bit() {
 }
 
 #[test]
+fn places_far_from_the_origin_are_written_to_a_micrometre() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("places.csv");
+    let northing = 5_234_567.123_456_7;
+    let mut writer = TableWriter::create(&path, &["x_m", "front_x_m", "y_m", "max_m"]).unwrap();
+    writer.row(&[northing, -northing, 1.0 / 3.0, northing]).unwrap();
+    writer.finish().unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert_eq!(text.lines().nth(1), Some("5234567.123457,-5234567.123457,0.333333333,5234567.12"));
+}
+
+#[test]
 fn what_is_written_is_read_back() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("history.csv");

@@ -147,6 +147,7 @@ const SMALL: &str = r#"
     bodies = [{ name = "a", material = "stone", x_m = [0, 1], y_m = [0, 0.5] }, { name = "b", material = "stone", x_m = [1, 2], y_m = [0, 0.5] }, { name = "c", material = "sand", x_m = [0, 1], y_m = [0.5, 1] }]
     boundaries = [{ name = "gate", kind = "gate", foot_m = [2, 0], height_m = 1, contact = "rough" }]
     contacts = [{ bodies = ["a", "b"], friction = 0.1 }, { bodies = ["a", "c"], friction = 0.1, gap = "positions" }, { bodies = ["b", "c"], friction = 0.1 }]
+    stages.settle = { damping_per_s = 60, residual = 1e-4, max_time_s = 5 }
     stages.run = { end_time_s = 1 }
 "#;
 

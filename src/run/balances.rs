@@ -4,12 +4,16 @@ use super::records::{MomentumRow, Records};
 use crate::ledger::EnergyBalance;
 use serde::Serialize;
 
-/// Energy at the end, as shares of the energy at release.
+/// Energy at the end, as shares of the energy at release. Its level of zero is the barrier's foot, or the lowest corner of what flows as it is
+/// drawn, if that is lower or there is no barrier.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct EnergyResults {
-    /// Kinetic, gravitational (above the barrier's foot) and elastic energy at release, J.
+    /// Kinetic, gravitational (above that level) and elastic energy of everything at release, J.
     pub initial_j: f64,
+    /// Most energy that had been released by any time: what was kinetic and elastic at release, and what gravity has given since, J. It
+    /// depends on no level.
+    pub released_j: f64,
     /// Kinetic energy.
     pub kinetic_1: f64,
     /// Gravitational energy.
@@ -32,6 +36,8 @@ pub struct EnergyResults {
     pub residual_end_1: f64,
     /// Not accounted for, largest magnitude at any time.
     pub energy_residual_1: f64,
+    /// Not accounted for, largest magnitude at any time, over `released_j` instead of the energy at release.
+    pub residual_of_released_1: f64,
     /// Largest kinetic share at any time.
     pub kinetic_max_1: f64,
 }
@@ -54,6 +60,8 @@ pub struct MomentumResults {
 pub(super) fn energy(records: &Records) -> EnergyResults {
     let mut results = EnergyResults {
         initial_j: 0.0,
+        released_j: 0.0,
+        residual_of_released_1: 0.0,
         kinetic_1: 0.0,
         gravitational_1: 0.0,
         elastic_1: 0.0,
@@ -70,6 +78,11 @@ pub(super) fn energy(records: &Records) -> EnergyResults {
     let Some(last) = records.energy.last() else { return results };
     let e = &last.balance;
     results.initial_j = e.initial;
+    results.released_j = records.energy.iter().map(|r| r.balance.released()).fold(0.0, f64::max);
+    if results.released_j > 0.0 {
+        let residuals = records.energy.iter().map(|r| r.balance.residual.abs());
+        results.residual_of_released_1 = residuals.fold(0.0, f64::max) / results.released_j;
+    }
     if e.initial == 0.0 {
         return results;
     }

@@ -2,28 +2,45 @@
 
 use super::means::{arrival, impulse, late_mean, smoothed_peak, time_to_static};
 use super::records::HistoryRow;
+use super::scales::Scales;
+use super::summary::FrontPassage;
 use super::verdict::Kind;
 use crate::gauge::BarrierGauge;
 use serde::Serialize;
 
 /// Time after arrival over which the impulse of the impact is taken, s.
 const IMPACT_WINDOW: f64 = 0.5;
+/// Share of the elastic impact from which the peak is said to be one, where it is also so many times the static force: what heaps up slowly
+/// is no impact.
+const ELASTIC: f64 = 0.5;
+const OVER_STATIC: f64 = 1.5;
 
 /// Forces on the barrier.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct BarrierResults {
-    /// First time at which the normal force exceeds 0.5 N, s; absent if the flow did not arrive.
+    /// First time at which the normal force exceeds `arrival_force_n` of `[scales]`, s; absent if the flow did not arrive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arrival_s: Option<f64>,
     /// Largest normal force of a single step, N.
     pub peak_step_n: f64,
     /// Its time, s.
     pub peak_step_time_s: f64,
-    /// Largest mean normal force over 20 ms, N.
+    /// Largest mean normal force over 20 ms, N: over the 20 or 21 rows of `resolution_s` that end within 20 ms, each with the same weight.
+    /// Studies have recorded this one. It may lie a percent or two below `peak_20ms_by_steps_n`.
     pub peak_20ms_n: f64,
     /// Middle of that interval, s.
     pub peak_20ms_time_s: f64,
+    /// Largest mean normal force over 20 ms, N, over exactly that time and from steps: a window ends with a step.
+    pub peak_20ms_by_steps_n: f64,
+    /// That force over rho v^2 h b, with density, velocity, depth and width of the front just before it arrived: the coefficient of
+    /// dynamic pressure; absent if no front was seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_20ms_alpha_1: Option<f64>,
+    /// rho c v h b with the fastest P-wave c of the flow: the force of an elastic body of that section which is stopped at once (Joukowsky
+    /// 1900). A peak of this size is one of `young_pa`, and not of the flow; absent if no front was seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elastic_impact_n: Option<f64>,
     /// Mean normal force over the last 0.3 s, N.
     pub static_force_n: f64,
     /// Mean force along the barrier's face over the last 0.3 s, N; negative when the material drags it down.
@@ -52,8 +69,10 @@ pub struct BarrierResults {
     pub impulse_normal_n_s: f64,
     /// Impulse of the force along the face, N s.
     pub impulse_tangential_n_s: f64,
-    /// Highest material at the barrier at any time, m above its foot.
+    /// Highest single point at the barrier at any time, m above its foot.
     pub run_up_m: f64,
+    /// Largest 95th percentile at any time of the heights of the points at the barrier, where there are twenty or more, m above its foot.
+    pub run_up_p95_m: f64,
     /// Mass that went over the barrier's crest, or at most half a cell below it, kg; of a barrier that is a body, all that passed.
     pub overtopped_kg: f64,
     /// Mass that went under the barrier, or at most half a cell above its lower edge, kg.
@@ -63,19 +82,22 @@ pub struct BarrierResults {
 }
 
 /// Of the history of a barrier, `None` without a sample.
-pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow]) -> Option<BarrierResults> {
+pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow], scales: &Scales) -> Option<BarrierResults> {
     let last = history.last()?;
     let late = |value: fn(&HistoryRow) -> f64| late_mean(history, 0.0, 1.0, value);
     let static_force = late(|r| r.normal);
     let static_moment = late(|r| r.moment);
     let peak = smoothed_peak(history);
-    let arrival = arrival(history);
+    let arrival = arrival(history, scales.arrival_force_n);
     Some(BarrierResults {
         arrival_s: arrival,
         peak_step_n: gauge.peak_force().value,
         peak_step_time_s: gauge.peak_force().time,
         peak_20ms_n: peak.0,
         peak_20ms_time_s: peak.1,
+        peak_20ms_by_steps_n: gauge.peak_mean().value,
+        peak_20ms_alpha_1: None,
+        elastic_impact_n: None,
         static_force_n: static_force,
         static_shear_n: late(|r| r.tangential),
         static_force_drift_n: late_mean(history, 2.0 / 3.0, 1.0, |r| r.normal)
@@ -92,6 +114,7 @@ pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow]) -> Option<Ba
         impulse_normal_n_s: gauge.total_impulse()[0],
         impulse_tangential_n_s: gauge.total_impulse()[1],
         run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
+        run_up_p95_m: history.iter().map(|r| r.run_up_p95).fold(0.0, f64::max),
         overtopped_kg: last.passage.over,
         passed_under_kg: last.passage.under,
         passed_kg: last.passage.past,
@@ -99,6 +122,16 @@ pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow]) -> Option<Ba
 }
 
 impl BarrierResults {
+    /// Holds the peak against the front that arrived, on a flow `width` (m) wide.
+    pub(super) fn compare(&mut self, front: &FrontPassage, scales: &Scales, width: f64) {
+        let (v, area) = (front.velocity_m_per_s, front.depth_m * width);
+        let per_speed = scales.flow_density_kg_per_m3 * v * area;
+        if v > 0.0 && area > 0.0 {
+            self.peak_20ms_alpha_1 = Some(self.peak_20ms_by_steps_n / (per_speed * v));
+            self.elastic_impact_n = Some(per_speed * scales.flow_wave_speed_m_per_s);
+        }
+    }
+
     /// Notes what is odd about the barrier called `name`; less than `little` (kg) that went through it is little.
     pub(super) fn note(&self, name: &str, little: f64, note: &mut impl FnMut(Kind, String)) {
         let through = self.passed_kg - self.overtopped_kg - self.passed_under_kg;
@@ -114,6 +147,15 @@ impl BarrierResults {
         }
         if self.passed_under_kg > 0.0 {
             note(Kind::Passed, format!("{:.4} kg went under {name}", self.passed_under_kg));
+        }
+        let peak = self.peak_20ms_by_steps_n;
+        let strikes = peak >= OVER_STATIC * self.static_force_n;
+        if let Some(elastic) = self.elastic_impact_n.filter(|elastic| strikes && peak >= ELASTIC * elastic) {
+            let text = format!(
+                "the peak on {name} is that of an elastic body: {peak:.4e} N over 20 ms beside rho c v h b = {elastic:.4e} N, which grows with \
+                 the root of young_pa; without another young_pa to compare with it says little of the flow"
+            );
+            note(Kind::Elastic, text);
         }
         if self.arrival_s.is_none() {
             note(Kind::NotReached, format!("the flow did not reach {name}"));

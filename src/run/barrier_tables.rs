@@ -2,7 +2,7 @@
 
 use super::columns;
 use super::gauges::{Barrier, suffix};
-use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records, Rows};
 use super::table::{Names, OpenTable, flush, optional};
 use crate::gauge::StructureSample;
 use crate::gauge::structure::ProfilePoint;
@@ -16,8 +16,10 @@ pub(super) struct BarrierTables {
     structure: Option<OpenTable<(f64, StructureSample)>>,
     bending: Option<OpenTable<(f64, ProfilePoint)>>,
     outline: Option<OpenTable<[f64; 3]>>,
-    /// What was written.
+    /// What numbers with a name come from.
     pub records: Records,
+    /// Where rows go.
+    pub rows: Rows,
 }
 
 impl BarrierTables {
@@ -39,6 +41,7 @@ impl BarrierTables {
             bending: optional(bends, &columns::BENDING, &at("barrier_profile"))?,
             outline: optional(bends && fields, &columns::OUTLINE, &at("barrier_outline"))?,
             records: Records::default(),
+            rows: Rows::All,
         })
     }
 
@@ -52,8 +55,10 @@ impl BarrierTables {
 
 impl Recorder for BarrierTables {
     fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError> {
-        self.records.history(row)?;
-        self.history.row(row)
+        if self.rows.are_kept() {
+            self.records.history(row)?;
+        }
+        if self.rows.are_written() { self.history.row(row) } else { Ok(()) }
     }
 
     fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError> {
@@ -70,8 +75,11 @@ impl Recorder for BarrierTables {
     }
 
     fn structure(&mut self, time: f64, sample: &StructureSample) -> Result<(), OutputError> {
-        self.records.structure(time, sample)?;
-        self.structure.as_mut().map_or(Ok(()), |table| table.row(&(time, *sample)))
+        if self.rows.are_kept() {
+            self.records.structure(time, sample)?;
+        }
+        let table = self.structure.as_mut().filter(|_| self.rows.are_written());
+        table.map_or(Ok(()), |table| table.row(&(time, *sample)))
     }
 
     fn bending(&mut self, time: f64, rows: &[ProfilePoint]) -> Result<(), OutputError> {

@@ -50,17 +50,19 @@ const SAMPLE_FORCES: &[Column<HistoryRow>] = columns![HistoryRow;
 
 const SAMPLE_BASE: &[Column<HistoryRow>] = columns![HistoryRow;
     "base_normal_n", "N", "force of the base on the material along its normal", |r, _| r.base.normal;
-    "base_friction_n", "N", "force of the base on the material along it, positive down the flume", |r, _| r.base.friction;
+    "base_friction_n", "N", "force of the base on the material along it, positive where the flow runs", |r, _| r.base.friction;
 ];
 
 const SAMPLE_FRONT: &[Column<HistoryRow>] = columns![HistoryRow;
-    "front_x_m", "m", "position that 1 % of the flow's mass has passed", |r, _| r.front.x;
-    "front_velocity_m_per_s", "m/s", "mean velocity along x of the mass within 0.05 m behind the front and of all ahead of it", |r, _| r.front.velocity;
-    "front_depth_m", "m", "largest flow depth within 0.1 m behind the front", |r, _| r.front.depth;
+    "front_x_m", "m", "position that 1 % of the flow's mass has passed: the 99 % quantile, which lags the edge in a long flow", |r, _| r.front.x;
+    "front_edge_x_m", "m", "position of the foremost point of the flow: its edge", |r, _| r.front.edge;
+    "front_velocity_m_per_s", "m/s", "mean velocity of the mass within front_length_m behind the front and of all ahead of it, positive where the flow runs", |r, _| r.front.velocity;
+    "front_depth_m", "m", "largest flow depth within twice that length behind the front", |r, _| r.front.depth;
 ];
 
 const SAMPLE_CREST: &[Column<HistoryRow>] = columns![HistoryRow;
-    "run_up_m", "m", "highest material within 1.5 cells of the barrier's face, above its foot", |r, _| r.run_up;
+    "run_up_m", "m", "highest single point within 1.5 cells of the barrier's face, above its foot", |r, _| r.run_up;
+    "run_up_p95_m", "m", "95th percentile of the heights of the points there, if they are twenty or more, else 0", |r, _| r.run_up_p95;
     "overtopped_kg", "kg", "mass that went over the barrier's crest since the release", |r, _| r.passage.over;
     "passed_under_kg", "kg", "mass that went under the barrier since the release", |r, _| r.passage.under;
     "passed_kg", "kg", "all mass that has passed the barrier since the release, on whatever way", |r, _| r.passage.past;
@@ -123,7 +125,7 @@ pub(super) static ENERGY: TableKind<EnergyRow> = TableKind {
             columns![EnergyRow;
                 "time_s", "s", "after release", |r, _| r.time;
                 "kinetic_j", "J", "kinetic energy", |r, _| r.balance.kinetic;
-                "gravitational_j", "J", "gravitational energy above the first barrier's foot, else above the origin", |r, _| r.balance.gravitational;
+                "gravitational_j", "J", "gravitational energy above the first barrier's foot, or above the lowest corner of what flows as it is drawn, if that is lower or there is no barrier", |r, _| r.balance.gravitational;
                 "elastic_j", "J", "elastic energy", |r, _| r.balance.elastic;
                 "plastic_j", "J", "work of the stresses that was not stored", |r, _| r.balance.plastic;
             ],

@@ -3,29 +3,35 @@
 //! Elsewhere: the driver; stages are load steps.
 
 use super::ProgressFn;
+use super::clock::{Clock, METER_HZ};
 use super::gauges::{Barrier, Gauges, Named, of_barrier};
-use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder};
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Rows};
 use super::rest::RestWatch;
+use super::scales::Scales;
 use super::scene;
-use super::stage::{End, Progress, RunError, Stage, StageFacts};
+use super::stage::{End, RunError, Stage, StageFacts};
 use crate::case::Case;
-use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, WindowGauge, flow, velocity_field};
+use crate::gauge::flow::{self, Motion};
+use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, WindowGauge, velocity_field};
 use crate::output::OutputError;
 use crate::simulation::Simulation;
-
-/// Steps between calls of the progress function and looks at the residual.
-const STEPS_PER_LOOK: u64 = 25;
-/// Samples per row of the ledgers and stations.
-const SAMPLES_PER_LEDGER: u64 = 10;
 
 /// A simulation with its stages and gauges.
 #[derive(Debug)]
 pub struct Experiment {
-    case: Case,
-    simulation: Simulation,
+    pub(super) case: Case,
+    pub(super) simulation: Simulation,
     gauges: Gauges,
-    facts: StageFacts,
-    stopped: bool,
+    pub(super) facts: StageFacts,
+    pub(super) stopped: bool,
+    /// Most energy that had been released by any row of the ledgers, J.
+    released: f64,
+}
+
+/// Gauges of tables that are read at another rate than the numbers with a name come from.
+struct Tables {
+    gauges: Gauges,
+    clock: Clock,
 }
 
 impl Experiment {
@@ -33,7 +39,7 @@ impl Experiment {
     pub fn new(case: &Case) -> Self {
         let simulation = Simulation::new(scene::build(case));
         let gauges = Gauges::new(case, &simulation);
-        Self { case: case.clone(), simulation, gauges, facts: StageFacts::default(), stopped: false }
+        Self { case: case.clone(), simulation, gauges, facts: StageFacts::default(), stopped: false, released: 0.0 }
     }
 
     /// The simulation.
@@ -104,86 +110,42 @@ impl Experiment {
         &self.facts
     }
 
-    /// Level at which gravitational energy is zero: the barrier's foot, else the origin.
+    /// What the flow is measured by.
+    pub fn scales(&self) -> &Scales {
+        &self.gauges.scales
+    }
+
+    /// A place at the level at which gravitational energy is zero: the barrier's foot, or the lowest corner of what flows as it is drawn,
+    /// if that is lower or there is no barrier. So shares of the energy at release do not know where the origin is.
     pub fn datum(&self) -> [f64; 2] {
-        self.barrier().map_or([0.0; 2], |g| g.face(&self.simulation).foot().into())
+        let angle = self.case.gravity.inclination_deg.to_radians();
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let level = |x: &[f64; 2]| x[1] * cos - x[0] * sin;
+        let flows = |name: &str| scene::index(&self.case, name).is_none_or(|k| !self.structures().contains(&k));
+        let bodies = self.case.bodies.iter().filter(|b| !b.weightless && flows(&b.name));
+        let corners = bodies.flat_map(|b| b.corners_m());
+        let foot = self.barrier().map(|g| g.face(&self.simulation).foot().into());
+        let lower = |a: [f64; 2], b: [f64; 2]| if level(&b) < level(&a) { b } else { a };
+        foot.into_iter().chain(corners).reduce(lower).unwrap_or_default()
     }
 
     /// All stages.
     pub fn run(&mut self, recorder: &mut dyn Recorder, progress: &mut ProgressFn) -> Result<End, RunError> {
-        self.prepare(progress)?;
+        if let Err(error) = self.prepare(progress) {
+            self.note_settling();
+            if matches!(error, RunError::Unsettled { .. }) {
+                let cells = velocity_field(&self.simulation, self.structures());
+                recorder.unsettled(self.simulation.time(), &cells)?;
+            }
+            return Err(error);
+        }
         self.release();
         if self.stopped { Ok(End::Stopped) } else { self.flow(recorder, progress) }
     }
 
-    /// Settles and tilts.
-    pub fn prepare(&mut self, progress: &mut ProgressFn) -> Result<(), RunError> {
-        let Some(settle) = self.case.stages.settle.clone() else { return Ok(()) };
-        self.simulation.set_damping(settle.damping_per_s);
-        self.settle(progress)?;
-        if let Some(tilt) = self.case.stages.tilt.clone() {
-            let from = self.case.gravity.settle_inclination_or_default_deg();
-            let to = self.case.gravity.inclination_deg;
-            let start = self.simulation.time();
-            while !self.stopped && self.simulation.time() < start + tilt.duration_s {
-                let share = (self.simulation.time() - start) / tilt.duration_s;
-                self.simulation.set_gravity(scene::gravity(&self.case, from + share * (to - from)));
-                self.simulation.step()?;
-                self.look(Stage::Tilt, start, tilt.duration_s, 0.0, progress);
-            }
-            self.simulation.set_gravity(scene::gravity(&self.case, to));
-            self.settle(progress)?;
-        }
-        self.simulation.set_damping(0.0);
-        Ok(())
-    }
-
-    /// Steps until the residual has stayed below its limit for one period of the body's slowest oscillation.
-    fn settle(&mut self, progress: &mut ProgressFn) -> Result<(), RunError> {
-        let Some(settle) = self.case.stages.settle.clone() else { return Ok(()) };
-        let height = self.case.bodies.iter().map(|b| b.size_m()[1]).fold(0.0, f64::max);
-        let slowest = self.simulation.bodies().iter().map(|b| b.p_wave_speed()).fold(f64::INFINITY, f64::min);
-        let period = 4.0 * height / slowest;
-        let scale = (self.case.gravity.magnitude_m_per_s2 * height).sqrt();
-        let start = self.simulation.time();
-        let mut last_above = start;
-        let mut residual = f64::INFINITY;
-        while !self.stopped && self.simulation.time() - last_above < period {
-            self.simulation.step()?;
-            if self.simulation.steps().is_multiple_of(STEPS_PER_LOOK) {
-                // Structures are as good as at rest, and would make light of what the material does.
-                let (sim, structures) = (&self.simulation, self.structures());
-                let motion = flow::motion(sim, |b| !structures.contains(&b) && !sim.bodies()[b].weightless);
-                residual = (2.0 * motion.kinetic / motion.mass.max(f64::MIN_POSITIVE)).sqrt() / scale;
-                if residual > settle.residual {
-                    last_above = self.simulation.time();
-                }
-            }
-            if self.simulation.time() - start > settle.max_time_s && residual > settle.residual {
-                return Err(RunError::Unsettled { time: settle.max_time_s, residual, wanted: settle.residual });
-            }
-            self.look(Stage::Settle, start, settle.max_time_s, residual, progress);
-        }
-        self.facts.settle_residual = residual;
-        Ok(())
-    }
-
-    fn look(&mut self, stage: Stage, start: f64, end: f64, residual: f64, progress: &mut ProgressFn) {
-        let sim = &self.simulation;
-        if !sim.steps().is_multiple_of(STEPS_PER_LOOK) {
-            return;
-        }
-        let force = self.barrier().map_or(0.0, |g| g.step_force(sim));
-        let (time, steps, particles) = (sim.time() - start, sim.steps(), sim.particle_count());
-        let go_on = progress(&Progress { stage, time, end, steps, particles, force, residual });
-        self.stopped |= !go_on;
-    }
-
     /// Opens the gates and the ledger, and starts the clock.
     pub fn release(&mut self) -> &Simulation {
-        self.facts.settle_time = self.simulation.time();
-        self.facts.settle_steps = self.simulation.steps();
-        self.facts.particles = self.simulation.particle_count();
+        self.note_settling();
         self.simulation.set_time(0.0);
         self.simulation.open_ledger();
         self.simulation.release_gates();
@@ -191,17 +153,26 @@ impl Experiment {
         &self.simulation
     }
 
+    fn note_settling(&mut self) {
+        self.facts.settle_time = self.simulation.time();
+        self.facts.settle_steps = self.simulation.steps();
+        self.facts.particles = self.simulation.particle_count();
+    }
+
     fn flow(&mut self, recorder: &mut dyn Recorder, progress: &mut ProgressFn) -> Result<End, RunError> {
         let run = self.case.stages.run.clone();
-        let energy = self.simulation.energy_balance(self.simulation.opening(), self.datum());
-        let released = energy.initial.abs().max(f64::MIN_POSITIVE);
-        let interval = 1.0 / self.case.gauges.sample_rate_hz;
+        let initial = self.simulation.energy_balance(self.simulation.opening(), self.datum()).initial.abs();
         let frames = self.case.output.vtk_interval_s;
         let mut fields = self.case.gauges.field_times_s.clone().into_iter().peekable();
         let mut rest = RestWatch::default();
-        let (mut samples, mut frame) = (0u64, 0u64);
+        let mut frame = 0u64;
         self.facts.time_step = [f64::INFINITY, 0.0];
+        // What has a name comes from rows at a rate of its own; tables have theirs.
+        let (mut meter, rate) = (Clock::new(METER_HZ), self.case.gauges.sample_rate_hz);
+        let apart = recorder.has_tables() && rate != METER_HZ;
+        let mut tables = apart.then(|| Tables { gauges: self.gauges.clone(), clock: Clock::new(rate) });
         self.record_ledgers(recorder)?;
+        recorder.turn(if apart { Rows::Kept } else { Rows::All });
         loop {
             let time = self.simulation.time();
             while fields.next_if(|t| time >= *t).is_some() {
@@ -217,6 +188,11 @@ impl Experiment {
                 if fields.peek().is_some() {
                     self.record_field(time, recorder)?;
                 }
+                if meter.is_silent() && self.facts.run_steps > 0 {
+                    // A run that is shorter than a row is one.
+                    self.sample(recorder)?;
+                    self.record_ledgers(recorder)?;
+                }
                 return Ok(match () {
                     () if self.stopped => End::Stopped,
                     () if rest.at_rest => End::Rest,
@@ -225,20 +201,31 @@ impl Experiment {
             }
             self.simulation.step()?;
             self.read_step();
+            rest.gate |= self.is_gated();
             recorder.step(&self.simulation)?;
-            if self.simulation.time() >= (samples + 1) as f64 * interval {
-                samples = (self.simulation.time() / interval) as u64;
-                let motion = flow::motion(&self.simulation, |b| !self.structures().contains(&b));
-                let row = self.gauges.sample(&self.simulation, recorder)?;
-                let row = HistoryRow { kinetic: motion.kinetic, ..row };
-                recorder.history(&row)?;
+            if meter.strikes(self.simulation.time()) {
+                let (row, motion) = self.sample(recorder)?;
                 let weight = motion.mass * self.case.gravity.magnitude_m_per_s2;
-                rest.watch(&row, motion.momentum, interval, released, weight);
-                if samples.is_multiple_of(SAMPLES_PER_LEDGER) {
+                rest.watch(&row, motion.momentum, initial.max(self.released).max(f64::MIN_POSITIVE), weight);
+                if meter.strikes_ten() {
                     self.record_ledgers(recorder)?;
                 }
             }
-            let share = rest.kinetic / released;
+            if let Some(tables) = &mut tables {
+                tables.gauges.after_step(&self.simulation);
+                if tables.clock.strikes(self.simulation.time()) {
+                    recorder.turn(Rows::Written);
+                    // As the others, for as long as it takes to read them.
+                    std::mem::swap(&mut self.gauges, &mut tables.gauges);
+                    let read = self.sample(recorder);
+                    let ledgers = if tables.clock.strikes_ten() { self.record_ledgers(recorder) } else { Ok(()) };
+                    std::mem::swap(&mut self.gauges, &mut tables.gauges);
+                    recorder.turn(Rows::Kept);
+                    read?;
+                    ledgers?;
+                }
+            }
+            let share = rest.kinetic / initial.max(self.released).max(f64::MIN_POSITIVE);
             self.look(Stage::Run, 0.0, run.end_time_s, share, progress);
         }
     }
@@ -255,10 +242,26 @@ impl Experiment {
         self.gauges.after_step(sim);
     }
 
+    /// Whether a gate that is still opening held material in the last step.
+    fn is_gated(&self) -> bool {
+        let gates = self.simulation.boundaries().iter().zip(self.simulation.step_tallies());
+        gates.filter(|(b, _)| b.is_opening()).any(|(_, tally)| tally.impulse != [0.0; 2])
+    }
+
+    /// Reads the gauges into a row.
+    fn sample(&mut self, recorder: &mut dyn Recorder) -> Result<(HistoryRow, Motion), OutputError> {
+        let motion = flow::motion(&self.simulation, |b| !self.structures().contains(&b));
+        let row = self.gauges.sample(&self.simulation, recorder)?;
+        let row = HistoryRow { kinetic: motion.kinetic, ..row };
+        recorder.history(&row)?;
+        Ok((row, motion))
+    }
+
     fn record_ledgers(&mut self, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
         let sim = &self.simulation;
         let now = sim.stock();
         let balance = sim.energy_balance(&now, self.datum());
+        self.released = self.released.max(balance.released());
         recorder.energy(&EnergyRow { time: sim.time(), balance })?;
         recorder.momentum(&MomentumRow::new(sim.time(), sim.ledger(), sim.opening(), &now))?;
         self.gauges.sample_stations(sim, recorder)

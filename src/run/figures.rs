@@ -53,7 +53,7 @@ pub(super) fn draw_figures(
     if summary.energy.initial_j > 0.0 && has_rows("energy.csv") {
         results.push(plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg")));
     }
-    if !case.gauges.field_times_s.is_empty() && has_rows("field.csv") {
+    if at("field.csv").exists() && has_rows("field.csv") {
         let bends = experiment.barriers().iter().enumerate().find(|(_, b)| b.structure().is_some());
         let outline = bends.map(|(k, b)| at(&format!("barrier_outline{}.csv", suffix(b, k))));
         let (field, geometry, out) = (at("field.csv"), at("geometry.csv"), at("flow_snapshots.svg"));

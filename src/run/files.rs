@@ -12,7 +12,7 @@ use super::figures::draw_figures;
 use super::gauges::{PeakProfile, suffix};
 pub use super::outlines::outlines;
 use super::outlines::{write_geometry_table, write_geometry_vtk};
-use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records};
+use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Records, Rows};
 use super::stage::RunError;
 use super::summary::Summary;
 use super::table::{Names, OpenTable, flush, optional};
@@ -177,25 +177,59 @@ impl Folder {
     }
 }
 
+impl Folder {
+    fn is_written(&self) -> bool {
+        self.first.rows.are_written()
+    }
+
+    fn is_kept(&self) -> bool {
+        self.first.rows.are_kept()
+    }
+}
+
 impl Recorder for Folder {
+    fn has_tables(&self) -> bool {
+        true
+    }
+
+    fn turn(&mut self, rows: Rows) {
+        self.first.rows = rows;
+        self.further.iter_mut().for_each(|b| b.rows = rows);
+    }
+
+    fn unsettled(&mut self, time: f64, cells: &[FieldCell]) -> Result<(), OutputError> {
+        if self.field.is_none() {
+            self.field = optional(true, &columns::FIELD, &self.directory.join("field.csv"))?;
+        }
+        self.field(time, cells)
+    }
+
     fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError> {
         self.first.history(row)
     }
 
     fn energy(&mut self, row: &EnergyRow) -> Result<(), OutputError> {
-        self.first.energy(row)?;
-        self.energy.row(row)
+        if self.is_kept() {
+            self.first.energy(row)?;
+        }
+        if self.is_written() { self.energy.row(row) } else { Ok(()) }
     }
 
     fn momentum(&mut self, row: &MomentumRow) -> Result<(), OutputError> {
-        self.first.momentum(row)?;
+        if self.is_kept() {
+            self.first.momentum(row)?;
+        }
+        if !self.is_written() {
+            return Ok(());
+        }
         self.momentum.row(row)?;
         // Once per ledger row everything is on disk.
         self.close()
     }
 
     fn station(&mut self, time: f64, sample: &StationSample) -> Result<(), OutputError> {
-        self.stations.as_mut().map_or(Ok(()), |table| table.row(&(time, *sample)))
+        let written = self.is_written();
+        self.stations.as_mut().filter(|_| written).map_or(Ok(()), |table| table.row(&(time, *sample)))
     }
 
     fn profile(&mut self, time: f64, rows: &[(f64, f64)]) -> Result<(), OutputError> {
@@ -229,13 +263,19 @@ impl Recorder for Folder {
     }
 
     fn further_base(&mut self, base: usize, row: &HistoryRow) -> Result<(), OutputError> {
-        self.first.records.further_base(base, row)?;
-        self.bases.get_mut(base).map_or(Ok(()), |table| table.row(row))
+        if self.is_kept() {
+            self.first.records.further_base(base, row)?;
+        }
+        let written = self.is_written();
+        self.bases.get_mut(base).filter(|_| written).map_or(Ok(()), |table| table.row(row))
     }
 
     fn window(&mut self, window: usize, row: &HistoryRow) -> Result<(), OutputError> {
-        self.first.records.window(window, row)?;
-        self.windows.get_mut(window).map_or(Ok(()), |table| table.row(row))
+        if self.is_kept() {
+            self.first.records.window(window, row)?;
+        }
+        let written = self.is_written();
+        self.windows.get_mut(window).filter(|_| written).map_or(Ok(()), |table| table.row(row))
     }
 
     fn frame(&mut self, simulation: &Simulation) -> Result<(), OutputError> {

@@ -1,6 +1,7 @@
 //! The gauges of a case, as lists: barriers, bases, stations, windows.
 
 use super::records::{HistoryRow, Recorder};
+use super::scales::Scales;
 use super::scene;
 use crate::case::{Case, file_name};
 use crate::gauge::structure::ProfilePoint;
@@ -12,7 +13,7 @@ use crate::output::OutputError;
 use crate::simulation::Simulation;
 
 /// A barrier: the force on it, and, if it is a body, how it takes that.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Barrier {
     name: String,
     force: BarrierGauge,
@@ -30,6 +31,8 @@ pub struct BarrierSample {
     pub layers: [f64; 3],
     /// Highest material beside it, m above its foot.
     pub run_up: f64,
+    /// 95th percentile of the heights of the points beside it, m above its foot.
+    pub run_up_p95: f64,
     /// What has passed it since the release.
     pub passage: Passage,
     /// How it takes it, if it is a body.
@@ -106,7 +109,8 @@ impl Barrier {
         let mut sample = BarrierSample { force, ..BarrierSample::default() };
         if let Some(boundary) = self.force.boundary() {
             sample.layers = layers::normal_force(simulation, boundary);
-            sample.run_up = wall_state(simulation, boundary).run_up;
+            let state = wall_state(simulation, boundary);
+            (sample.run_up, sample.run_up_p95) = (state.run_up, state.run_up_p95);
         }
         if let Some(passage) = &self.passage {
             sample.passage = passage.sample(simulation);
@@ -114,6 +118,7 @@ impl Barrier {
         if let Some(structure) = &mut self.structure {
             let s = structure.sample(simulation);
             (sample.layers, sample.run_up) = (s.survey.layers, s.survey.run_up);
+            sample.run_up_p95 = s.survey.run_up_p95;
             sample.passage = structure.passage(&s.survey);
             sample.structure = Some(s);
             if force.normal > self.peak.force {
@@ -147,12 +152,13 @@ impl BarrierSample {
         row.normal_max = self.force.normal_max;
         row.layers = self.layers;
         row.run_up = self.run_up;
+        row.run_up_p95 = self.run_up_p95;
         row.passage = self.passage;
     }
 }
 
 /// A gauge with its name in the case.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Named<G> {
     /// The name.
     pub name: String,
@@ -161,8 +167,10 @@ pub(super) struct Named<G> {
 }
 
 /// The gauges of a case.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Gauges {
+    /// What the flow is measured by.
+    pub scales: Scales,
     /// Barriers, the first of which is what is meant by the barrier.
     pub barriers: Vec<Barrier>,
     /// Indices of those that are bodies: what is said of the flow leaves them out.
@@ -186,21 +194,26 @@ impl Gauges {
             gauges.barrier_names().filter_map(|name| Some(structure(case, simulation, name)?.body())).collect();
         let barriers: Vec<_> =
             gauges.barrier_names().filter_map(|name| Barrier::new(case, simulation, name, &structures)).collect();
+        let face = barriers.first().map(|b| b.force.face(simulation));
+        let scales = Scales::new(case, simulation, &structures, face);
         let base = |name: &str| {
-            let gauge = BaseGauge::new(simulation.boundary_index(name)?);
+            let boundary = simulation.boundary_index(name)?;
+            let gauge = BaseGauge::new(boundary, scales.along(&simulation.boundaries()[boundary]));
             Some(Named { name: name.into(), gauge })
         };
+        let bases = gauges.base_names().filter_map(base).collect();
         let window = gauges.window_x_m.zip(gauges.window_y_m);
         let windows =
             gauges.windows.iter().map(|w| Named { name: w.name.clone(), gauge: WindowGauge::new(w.x_m, w.y_m) });
         Self {
+            scales,
             structures,
             barriers,
-            bases: gauges.base_names().filter_map(base).collect(),
+            bases,
             stations: gauges.stations_m.iter().copied().map(StationGauge::new).collect(),
             window: window.map(|(x, y)| WindowGauge::new(x, y)),
             windows: windows.collect(),
-            front: FrontGauge::default(),
+            front: FrontGauge::new(scales.flow_direction_1, scales.front_length_m),
         }
     }
 

@@ -6,8 +6,6 @@ use super::records::HistoryRow;
 pub(super) const STATIC_WINDOW: f64 = 0.3;
 /// Length of the mean behind the filtered peak, s: the paper's archive interval.
 const PEAK_WINDOW: f64 = 0.02;
-/// Force on the barrier above which the flow counts as arrived, N.
-const ARRIVAL_FORCE: f64 = 0.5;
 /// The force is static from when its mean over that interval stays within this share of the static force.
 const STATIC_BAND: f64 = 0.05;
 
@@ -46,9 +44,9 @@ pub(super) fn archived_peak(history: &[HistoryRow]) -> f64 {
     frames.map(|p| p[1].normal).fold(0.0, f64::max)
 }
 
-/// When the normal force first exceeds `ARRIVAL_FORCE`.
-pub(super) fn arrival(history: &[HistoryRow]) -> Option<f64> {
-    history.iter().find(|r| r.normal > ARRIVAL_FORCE).map(|r| r.time)
+/// When the normal force first exceeds `force` (N).
+pub(super) fn arrival(history: &[HistoryRow], force: f64) -> Option<f64> {
+    history.iter().find(|r| r.normal > force).map(|r| r.time)
 }
 
 /// End of the last interval of `PEAK_WINDOW` whose mean is farther from the static force than `STATIC_BAND`.

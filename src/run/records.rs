@@ -29,6 +29,8 @@ pub struct HistoryRow {
     pub front: Front,
     /// Highest material at the barrier, m above its foot.
     pub run_up: f64,
+    /// 95th percentile of the heights of the points at the barrier, m above its foot; zero if they are fewer than twenty.
+    pub run_up_p95: f64,
     /// What has passed the barrier since the release.
     pub passage: Passage,
     /// Speeds in the window.
@@ -78,8 +80,42 @@ pub struct EnergyRow {
     pub balance: EnergyBalance,
 }
 
+/// Where the rows go that follow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Rows {
+    /// Into tables, and numbers with a name come from them.
+    #[default]
+    All,
+    /// Numbers with a name come from them; they are in no table.
+    Kept,
+    /// Into tables alone.
+    Written,
+}
+
+impl Rows {
+    /// Whether numbers with a name come from them.
+    pub fn are_kept(self) -> bool {
+        self != Rows::Written
+    }
+
+    /// Whether they stand in tables.
+    pub fn are_written(self) -> bool {
+        self != Rows::Kept
+    }
+}
+
 /// Receives what is recorded.
 pub trait Recorder {
+    /// Whether it has tables, whose rows then come at `gauges.sample_rate_hz`; else all rows are those that numbers with a name come from.
+    fn has_tables(&self) -> bool {
+        false
+    }
+    /// Says where the rows go that follow: a recorder with tables hears of it when both kinds of rows are not the same.
+    fn turn(&mut self, _rows: Rows) {}
+    /// The velocity field of material that did not settle.
+    fn unsettled(&mut self, _time: f64, _cells: &[FieldCell]) -> Result<(), OutputError> {
+        Ok(())
+    }
     /// A sample of the gauges.
     fn history(&mut self, row: &HistoryRow) -> Result<(), OutputError>;
     /// The energy ledger.

@@ -2,9 +2,10 @@
 //!
 //! Elsewhere: a criterion of quasi-static equilibrium (steady state).
 
+use super::clock::METER_S;
 use super::records::HistoryRow;
 
-/// Kinetic energy over the energy released, below which the material counts as at rest.
+/// Kinetic energy over the energy at release or released since, below which the material counts as at rest.
 const REST_ENERGY: f64 = 1e-4;
 /// Largest change of the mean force between two windows at rest, as a share of it.
 const REST_FORCE: f64 = 0.01;
@@ -15,12 +16,17 @@ const REST_WINDOW: f64 = 0.1;
 /// Time after release before which nothing counts as rest, s.
 const REST_NOT_BEFORE: f64 = 0.5;
 
-/// Decides whether the material is at rest: little kinetic energy, balanced forces, and a force that no longer changes.
+/// Decides whether the material is at rest: little kinetic energy, balanced forces, a force that no longer changes, and no gate that is
+/// still opening and holds it.
 #[derive(Debug, Default)]
 pub(super) struct RestWatch {
     /// Kinetic energy at the last sample, J.
     pub kinetic: f64,
+    /// Whether a gate that is still opening held material since the last window.
+    pub gate: bool,
     window: Vec<f64>,
+    /// When the last window ended, s.
+    since: f64,
     last_mean: Option<f64>,
     momentum: [f64; 2],
     quiet: usize,
@@ -29,23 +35,54 @@ pub(super) struct RestWatch {
 }
 
 impl RestWatch {
-    /// Takes a sample.
-    pub fn watch(&mut self, row: &HistoryRow, momentum: [f64; 2], interval: f64, released: f64, weight: f64) {
+    /// Takes a sample: momentum (N s), energy at release or released since (J) and weight (N) of all but barriers.
+    pub fn watch(&mut self, row: &HistoryRow, momentum: [f64; 2], released: f64, weight: f64) {
         self.kinetic = row.kinetic;
         self.window.push(row.normal);
-        let length = self.window.len() as f64 * interval;
+        // Rows end with steps: so many of them are that long but for a step, or longer where steps are.
+        let length = (self.window.len() as f64 * METER_S).max(row.time - self.since - METER_S);
         if length < REST_WINDOW {
             return;
         }
         let mean = self.window.iter().sum::<f64>() / self.window.len() as f64;
         self.window.clear();
+        self.since = row.time;
+        let held = std::mem::take(&mut self.gate);
         let steady = self.last_mean.is_some_and(|last| (mean - last).abs() <= REST_FORCE * mean.abs().max(1e-9));
         let change = (momentum[0] - self.momentum[0]).hypot(momentum[1] - self.momentum[1]);
         let balanced = change <= REST_IMBALANCE * weight * length;
         self.last_mean = Some(mean);
         self.momentum = momentum;
         let slow = row.kinetic <= REST_ENERGY * released;
-        self.quiet = if slow && balanced && steady && row.time >= REST_NOT_BEFORE { self.quiet + 1 } else { 0 };
+        self.quiet =
+            if slow && balanced && steady && !held && row.time >= REST_NOT_BEFORE { self.quiet + 1 } else { 0 };
         self.at_rest = self.quiet >= 3;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// When material that has stopped moving counts as at rest, with rows of `interval` (s) and a gate that holds it until `opened` (s).
+    fn rest(interval: f64, opened: f64) -> Option<f64> {
+        let mut watch = RestWatch::default();
+        let times = (1..).map(|k| f64::from(k) * interval).take_while(|t| *t < 3.0);
+        times.into_iter().find(|&time| {
+            watch.gate |= time < opened;
+            watch.watch(&HistoryRow { time, normal: 10.0, ..HistoryRow::default() }, [0.0; 2], 1.0, 1.0);
+            watch.at_rest
+        })
+    }
+
+    #[test]
+    fn rest_takes_windows_of_time_and_waits_for_gates() {
+        // Four windows of 0.1 s pass before anything counts; the fifth is the first of three. Each may be longer by a row.
+        let near = |found: Option<f64>, time: f64, row: f64| found.is_some_and(|t| (t - time).abs() < 15.0 * row);
+        for row in [1e-3, 2e-3, 5e-3] {
+            assert!(near(rest(row, 0.0), 0.7, row), "{row}: {:?}", rest(row, 0.0));
+            assert!(near(rest(row, 1.05), 1.4, row), "{row}: {:?}", rest(row, 1.05));
+        }
+        assert_eq!(rest(1e-3, 9.0), None);
     }
 }

@@ -3,6 +3,7 @@
 use super::gauges::Barrier;
 use super::means::{archived_peak, arrival};
 use super::records::{EnergyRow, Records};
+use super::scales::Scales;
 use super::verdict::Kind;
 use crate::gauge::StructureSample;
 use crate::ledger::EnergyBalance;
@@ -70,7 +71,12 @@ pub struct StructureResults {
 }
 
 /// Of a barrier with its own records and the energies of the run; `None` if it is not a body, or without a sample.
-pub(super) fn results(barrier: &Barrier, records: &Records, energy: &[EnergyRow]) -> Option<StructureResults> {
+pub(super) fn results(
+    barrier: &Barrier,
+    records: &Records,
+    energy: &[EnergyRow],
+    scales: &Scales,
+) -> Option<StructureResults> {
     let gauge = barrier.structure()?;
     let samples = &records.structure;
     let end = samples.last()?.0;
@@ -86,7 +92,7 @@ pub(super) fn results(barrier: &Barrier, records: &Records, energy: &[EnergyRow]
     let clamp = gauge.peak_clamp_force();
     let tip = mean(|s| s.bend.tip);
     let height = gauge.face().height();
-    let arrival = arrival(&records.history);
+    let arrival = arrival(&records.history, scales.arrival_force_n);
     let arrived = energy.iter().find(|r| arrival.is_some_and(|t| r.time >= t)).map(|r| r.balance.clone());
     let share = |value: fn(&EnergyBalance) -> f64| arrived.as_ref().map_or(f64::NAN, |b| value(b) / b.initial);
     Some(StructureResults {

@@ -6,6 +6,7 @@ pub use super::deposit::{DepositResults, FurtherBase};
 use super::experiment::Experiment;
 use super::means::arrival;
 use super::records::{HistoryRow, Records};
+use super::scales::Scales;
 use super::stage::End;
 use super::structure::{self, StructureResults};
 use super::{balances, barrier, deposit, verdict};
@@ -28,6 +29,8 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Discretisation and stepping.
     pub stepping: Stepping,
+    /// What the flow was measured by.
+    pub scales: Scales,
     /// Forces on the barrier.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barrier: Option<BarrierResults>,
@@ -65,7 +68,7 @@ pub struct Stepping {
     pub settle_time_s: f64,
     /// Steps spent settling and tilting.
     pub settle_steps: u64,
-    /// Residual at release: rms speed / sqrt(g x height).
+    /// Residual at release: rms speed / sqrt(g x height) of what flows.
     pub settle_residual: f64,
     /// End of the run, s after release.
     pub end_s: f64,
@@ -102,11 +105,13 @@ pub struct FurtherBarrier {
 pub struct FrontPassage {
     /// Where, m.
     pub x_m: f64,
-    /// When, s.
+    /// When 1 % of the mass that flows had passed it, s.
     pub time_s: f64,
-    /// Velocity of its first 0.05 m, m/s.
+    /// When the edge, the foremost point, passed it, s.
+    pub edge_time_s: f64,
+    /// Velocity of its first `front_length_m` of `[scales]`, m/s.
     pub velocity_m_per_s: f64,
-    /// Largest depth in its first 0.1 m, m.
+    /// Largest depth in twice that length, m.
     pub depth_m: f64,
     /// velocity / sqrt(g depth cos).
     pub froude_1: f64,
@@ -129,6 +134,13 @@ impl Summary {
     }
 
     fn build(case: &Case, experiment: &Experiment, records: &Records, status: String, end: Option<End>) -> Self {
+        let scales = *experiment.scales();
+        let front = passages(case, records, &scales);
+        let mut barrier = experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history, &scales));
+        if let (Some(barrier), Some(front)) = (barrier.as_mut().filter(|b| b.arrival_s.is_some()), front.last()) {
+            barrier.compare(front, &scales, experiment.simulation().thickness());
+        }
+        let structure = |b| structure::results(b, records, &records.energy, &scales);
         let mut summary = Self {
             trusted: false,
             reasons: Vec::new(),
@@ -136,14 +148,15 @@ impl Summary {
             checkdam_version: env!("CARGO_PKG_VERSION").into(),
             warnings: Vec::new(),
             stepping: stepping(experiment),
-            barrier: experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history)),
-            structure: experiment.barriers().first().and_then(|b| structure::results(b, records, &records.energy)),
+            scales,
+            barrier,
+            structure: experiment.barriers().first().and_then(structure),
             further_barriers: further_barriers(experiment, records),
             deposit: deposit::results(experiment, records),
             further_bases: deposit::further_bases(experiment, records),
             energy: balances::energy(records),
             momentum: balances::momentum(records),
-            front: passages(case, records),
+            front,
             case: case.clone(),
         };
         let (reasons, warnings): (Vec<_>, Vec<_>) =
@@ -184,26 +197,29 @@ fn further_barriers(experiment: &Experiment, records: &Records) -> Vec<FurtherBa
     let with_records = experiment.barriers().iter().skip(1).zip(&records.further);
     let results = with_records.map(|(b, own)| FurtherBarrier {
         name: b.name().into(),
-        barrier: barrier::results(b.force(), &own.history),
-        structure: structure::results(b, own, &records.energy),
+        barrier: barrier::results(b.force(), &own.history, experiment.scales()),
+        structure: structure::results(b, own, &records.energy, experiment.scales()),
     });
     results.collect()
 }
 
-fn passages(case: &Case, records: &Records) -> Vec<FrontPassage> {
+fn passages(case: &Case, records: &Records, scales: &Scales) -> Vec<FrontPassage> {
     let g = case.gravity.magnitude_m_per_s2 * libm::cos(case.gravity.inclination_deg.to_radians());
+    let way = scales.flow_direction_1;
+    let first = |x: f64, place: fn(&HistoryRow) -> f64| records.history.iter().find(|r| way * place(r) >= way * x);
     let at = |row: &HistoryRow, x: f64| FrontPassage {
         x_m: x,
         time_s: row.time,
+        edge_time_s: first(x, |r| r.front.edge).map_or(row.time, |r| r.time),
         velocity_m_per_s: row.front.velocity,
         depth_m: row.front.depth,
         froude_1: row.front.velocity / (g * row.front.depth).sqrt(),
     };
     let stations = case.gauges.stations_m.iter();
-    let mut passages: Vec<_> =
-        stations.filter_map(|&x| records.history.iter().find(|r| r.front.x >= x).map(|row| at(row, x))).collect();
+    let mut passages: Vec<_> = stations.filter_map(|&x| first(x, |r| r.front.x).map(|row| at(row, x))).collect();
     // Just before the barrier is touched.
-    if let Some(k) = records.history.iter().position(|r| Some(r.time) == arrival(&records.history))
+    let arrived = arrival(&records.history, scales.arrival_force_n);
+    if let Some(k) = records.history.iter().position(|r| Some(r.time) == arrived)
         && k > 0
     {
         let row = &records.history[k - 1];

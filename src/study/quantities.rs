@@ -29,7 +29,8 @@ fn deposit(summary: &Summary, value: fn(&DepositResults) -> f64) -> f64 {
 
 /// The front as it enters the window of the velocity field.
 fn at_window(summary: &Summary, value: fn(&FrontPassage) -> f64) -> f64 {
-    let x = summary.case.gauges.window_x_m.map(|w| w[0]);
+    let entered = usize::from(summary.scales.flow_direction_1 < 0.0);
+    let x = summary.case.gauges.window_x_m.map(|w| w[entered]);
     summary.front.iter().find(|f| Some(f.x_m) == x).map_or(f64::NAN, value)
 }
 

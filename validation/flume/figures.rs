@@ -30,12 +30,13 @@ fn references(flume: &CaseRun) -> String {
     let mut text = String::from("label,value_n,half_width_n\n");
     let mut add = |label: &str, value: f64, half: f64| text += &format!("{},{value:.4},{half:.4}\n", quoted(label));
     if let Some(d) = &flume.summary.deposit {
-        let [low, high] = d.equilibrium_limits_n;
-        add(
-            "what equilibrium allows at rest, m g sin \u{3b8} \u{2213} \u{3bc} N",
-            0.5 * (low + high),
-            0.5 * (high - low),
-        );
+        if let Some([low, high]) = d.equilibrium_limits_n {
+            add(
+                "what equilibrium allows at rest, m g sin \u{3b8} \u{2213} \u{3bc} N",
+                0.5 * (low + high),
+                0.5 * (high - low),
+            );
+        }
         add("m g (sin \u{3b8} \u{2212} \u{3bc} cos \u{3b8})", d.theoretical_static_force_n, 0.0);
     }
     let window = case.gauges.window_x_m.map(|w| w[0]);

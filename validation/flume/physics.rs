@@ -74,7 +74,7 @@ pub fn checks(flume: &CaseRun) -> Vec<Check> {
         .because("at rest, with less than 1e-4 of the energy kinetic; means over 0.3 s")
         .from(Kind::Conservation, "equilibrium along the flume"),
     );
-    let [low, high] = deposit.equilibrium_limits_n;
+    let [low, high] = deposit.equilibrium_limits_n.unwrap_or([f64::NAN; 2]);
     checks.push(
         Check::new(format!("{name}: static force"), barrier.static_force_n, Expected::Within(low, high), "N")
             .because("Coulomb's law bounds the base friction by mu N either way")

@@ -367,6 +367,6 @@ fn flume_run(per_cell: usize, h: f64) -> Result<Flowed, String> {
     let arrival = barrier.arrival_s.ok_or("no arrival")?;
     Ok(Flowed {
         read: [barrier.peak_20ms_n, barrier.static_force_n, arrival, front.velocity_m_per_s],
-        limits: deposit.equilibrium_limits_n,
+        limits: deposit.equilibrium_limits_n.ok_or("more than base and barrier hold the deposit")?,
     })
 }

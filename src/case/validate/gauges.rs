@@ -7,13 +7,22 @@ use crate::case::file_name;
 use crate::case::path::KeyPath;
 use crate::case::suggest::did_you_mean;
 
+/// Fewest rows of a table that is coarser than the numbers of the summary.
+const LEAST_ROWS: f64 = 10.0;
+
 impl Checker<'_> {
     pub(super) fn gauges(&mut self) {
         let (gauges, domain) = (&self.case.gauges, &self.case.domain);
         let at = KeyPath::top("gauges");
         self.barriers(&at);
         self.bases(&at);
-        self.positive(&at.key("sample_rate_hz"), gauges.sample_rate_hz, 1000.0);
+        self.rate(&at.key("sample_rate_hz"));
+        if let Some(length) = gauges.front_length_m {
+            self.positive(&at.key("front_length_m"), length, 0.05);
+        }
+        if let Some(force) = gauges.arrival_force_n {
+            self.not_negative(&at.key("arrival_force_n"), force, 0.5);
+        }
         for (index, &station) in gauges.stations_m.iter().enumerate() {
             self.inside(&at.key("stations_m").index(index), station, domain.x_m);
         }
@@ -29,6 +38,22 @@ impl Checker<'_> {
         }
         self.named_windows(&at.key("windows"));
         self.field_times();
+    }
+
+    /// The rate of the tables: too coarse a one leaves them empty.
+    fn rate(&mut self, path: &KeyPath) {
+        let (rate, end) = (self.case.gauges.sample_rate_hz, self.case.stages.run.end_time_s);
+        self.positive(path, rate, 1000.0);
+        if rate > 0.0 && end > 0.0 && rate < 1000.0 && rate * end < LEAST_ROWS {
+            let allowed = format!(
+                "at least {} rows in a run, or 1000 rows a second; in {} s this gives {}",
+                text(LEAST_ROWS),
+                text(end),
+                (rate * end).floor()
+            );
+            let least = (1.1 * LEAST_ROWS / end).min(1000.0);
+            self.not_allowed(path, &rate, &allowed, &format!("use {} or more", text(least)));
+        }
     }
 
     /// The barriers whose force is measured: each is one thing, and has files of its own.

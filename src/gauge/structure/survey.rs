@@ -5,6 +5,7 @@ use crate::contact::outline::Nearest;
 use crate::gauge::beside::beside;
 use crate::gauge::flow::flowing_blocks;
 use crate::gauge::layers::{self, LAYERS, Near};
+use crate::gauge::wall_state::percentile;
 use crate::simulation::Simulation;
 use nalgebra::Vector2;
 
@@ -16,6 +17,8 @@ pub struct Survey {
     pub layers: [f64; 3],
     /// Highest point within 1.5 cells of the face, m.
     pub run_up: f64,
+    /// 95th percentile of the heights of these points, m; zero if they are fewer than twenty.
+    pub run_up_p95: f64,
     /// Mass behind the barrier, there or already out of the domain, kg.
     pub behind: f64,
     /// Deepest that a point's domain lies inside the barrier, m.
@@ -34,7 +37,7 @@ impl StructureGauge {
             }
         }
         let mut found = Survey { behind: simulation.ledger().departed_mass, ..Survey::default() };
-        let mut near = Vec::new();
+        let (mut near, mut heights) = (Vec::new(), Vec::new());
         let [least, most] = bounds[0];
         for point in beside(&self.face, most.max(least), flowing_blocks(simulation, &[self.body])) {
             let x = point.x();
@@ -53,6 +56,7 @@ impl StructureGauge {
             }
             if to.distance <= 1.5 * h {
                 found.run_up = found.run_up.max(s);
+                heights.push(s);
             }
             let at = self.face.face_coordinates(to.foot).1;
             if at < 0.0 || out.dot(&n) < 0.5 || to.distance < -h || to.distance > reach {
@@ -69,6 +73,7 @@ impl StructureGauge {
             });
         }
         found.layers = layers::sum(&near, h);
+        found.run_up_p95 = percentile(&mut heights);
         found
     }
 
