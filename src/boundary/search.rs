@@ -181,9 +181,14 @@ impl<'a> Search<'a> {
         let (_, s) = face.side.face_coordinates(x);
         let half = 0.5 * face.line;
         let passes = self.end(&face.side, s, half) == Some(End::Foot) && !face.side.is_lifted();
-        if !passes {
-            let hold = self.at_node(node, x, face.index);
-            found.holds.extend(hold.map(|h| h.clear_of_edge(half)));
+        if passes {
+            return;
+        }
+        let hold = self.at_node(node, x, face.index).map(|h| h.clear_of_edge(half));
+        let own = &self.boundaries[face.index];
+        match own.slip {
+            Some(_) => found.sites.extend(hold.map(|h| Site::at_node(&h, x, own))),
+            None => found.holds.extend(hold),
         }
     }
 
@@ -235,7 +240,7 @@ impl<'a> Search<'a> {
         let (side, half) = (&face.side, 0.5 * face.line);
         let (_, along) = side.face_coordinates(at.into());
         let end = self.end(side, along, half);
-        let off = face.plate || end.is_some() || d < -face.near();
+        let off = face.plate || end.is_some() || d < -face.near() || side.slip.is_some();
         if !off || !self.is_on_face(side, at.into(), along, if end.is_some() { half } else { 0.0 }) {
             return None;
         }
