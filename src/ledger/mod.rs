@@ -127,10 +127,8 @@ impl EnergyBalance {
         // What the elastic slip holds of the work against friction is not lost.
         let stored = |k: usize| ledger.elastic_slip[k] - ledger.opening_slip[k];
         let boundaries = ledger.boundaries.iter().enumerate();
-        let friction: Vec<f64> = boundaries
-            .map(|(k, b)| -b.friction_work - stored(k))
-            .chain(pairs().map(|c| -c.friction_work))
-            .collect();
+        let friction: Vec<f64> =
+            boundaries.map(|(k, b)| -b.friction_work - stored(k)).chain(pairs().map(|c| -c.friction_work)).collect();
         let contact: Vec<f64> =
             ledger.boundaries.iter().map(|b| -b.normal_work).chain(pairs().map(|c| -c.normal_work)).collect();
         let mut balance = Self {

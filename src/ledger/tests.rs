@@ -63,7 +63,8 @@ fn energy_is_booked_once_each_with_dissipation_positive() {
     // Mass that left took the energy of the datum level along.
     assert_eq!(b.outflow, p(26) + p(34) - p(33));
     assert_eq!(b.initial, p(30) + p(31) - p(33) + (p(32) + p(37)));
-    let all = p(27) + (p(28) - p(34)) + p(29) + (p(22) + p(32) - p(29)) + p(4) + p(8) + p(37) + p(5) + p(9) + p(12) + p(16);
+    let all =
+        p(27) + (p(28) - p(34)) + p(29) + (p(22) + p(32) - p(29)) + p(4) + p(8) + p(37) + p(5) + p(9) + p(12) + p(16);
     let all = all + p(20) + p(23) + (p(26) + p(34) - p(33));
     assert_eq!(b.accounted(), all);
     assert_eq!(b.residual, b.initial - all);

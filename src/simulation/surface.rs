@@ -212,13 +212,7 @@ impl Surface {
     }
 
     /// Closes the momentum balance of the nodes: the impulses of all that holds them.
-    pub fn solve(
-        &mut self,
-        fields: &mut [VelocityField],
-        boundaries: &[Boundary],
-        shape: ShapeFunction,
-        dt: f64,
-    ) {
+    pub fn solve(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], shape: ShapeFunction, dt: f64) {
         self.look(fields, boundaries, dt);
         self.slips.recall(fields, shape, &mut self.sites, dt);
         let Self { groups, nodes, sites, states, tallies, .. } = self;

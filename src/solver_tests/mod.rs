@@ -5,6 +5,7 @@ mod contact;
 mod failures;
 mod forces;
 mod motion;
+mod slip;
 mod surface;
 
 use crate::boundary::Boundary;

@@ -23,4 +23,5 @@ pub mod order;
 pub mod pic;
 pub mod self_weight;
 pub mod sliding_block;
+pub mod slip;
 pub mod vortex;

@@ -1,9 +1,9 @@
 //! What a crossing knows of the slip of the material that passes it. The material points remember it; see `simulation/slip.rs`.
 
 use super::{Site, SiteNode};
+use crate::boundary::Boundary;
 use crate::boundary::nodes::{Hold, HoldState};
 use crate::boundary::slip::{SlipLaw, Slipped};
-use crate::boundary::Boundary;
 use crate::space::{clockwise, dot, scaled};
 
 /// Slip at a crossing in a step.
