@@ -44,7 +44,7 @@ pub struct Boundary {
     /// `contact = "coulomb"`; 0 or more. Example: `0.4`.
     pub friction: Option<f64>,
     /// Slip over which friction is mobilised: the traction grows in proportion to the elastic slip and reaches static friction at this
-    /// one. Sand on steel or glass needs 3e-4 to 1e-3 m. Default: `0.0`, full friction without slip. Allowed: 0 or more; only with
+    /// one. Sand on steel or glass needs 3e-4 to 1e-3 m. Default: none, full friction without slip. Allowed: 0 or more; only with
     /// `contact = "coulomb"` and `numerics.boundary_contact = "surface"`, and not for `kind = "gate"`. Example: `5.0e-4`.
     pub slip_length_m: Option<f64>,
     /// Friction coefficient of material that has not slid. It falls to `friction` over one slip length of sliding, and comes back over
