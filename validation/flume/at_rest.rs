@@ -60,6 +60,8 @@ fn measured() -> [f64; 2] {
 struct Set {
     name: String,
     forces: [Scatter; 2],
+    /// Energy not accounted for, over E0, largest.
+    residual: f64,
 }
 
 impl Set {
@@ -77,6 +79,12 @@ fn forces(rows: &[Run], case: &str, (factor, label): (&str, &str)) -> Scatter {
     Scatter::of(own.map(|r| r.get("static_force_n")))
 }
 
+/// Energy not accounted for in the runs of a set at one angle, largest.
+fn residual(rows: &[Run], case: &str, (factor, label): (&str, &str)) -> f64 {
+    let own = rows.iter().filter(|r| r.case == case && r.factor == factor && r.label == label);
+    own.map(|r| r.get("energy_residual_1")).fold(0.0, f64::max)
+}
+
 /// The sets in the order of the study.
 fn sets(rows: &[Run]) -> Vec<Set> {
     let mut kinds: Vec<(&str, &str)> = Vec::new();
@@ -89,6 +97,7 @@ fn sets(rows: &[Run]) -> Vec<Set> {
     let set = |kind: (&str, &str)| Set {
         name: if kind.1.is_empty() { kind.0.to_string() } else { format!("{}: {}", kind.0, kind.1) },
         forces: ["40deg", "23deg"].map(|case| forces(rows, case, kind)),
+        residual: residual(rows, "40deg", kind).max(residual(rows, "23deg", kind)),
     };
     kinds.into_iter().map(set).collect()
 }
@@ -102,15 +111,18 @@ fn by_angle(rows: &[Run]) -> Vec<Set> {
     let pair = |[steep, flat]: &[(&str, &str); 2]| Set {
         name: format!("{}; at 23 degrees {}", words(*steep), words(*flat)),
         forces: [forces(rows, "40deg", *steep), forces(rows, "23deg", *flat)],
+        residual: residual(rows, "40deg", *steep).max(residual(rows, "23deg", *flat)),
     };
     BY_ANGLE.iter().map(pair).collect()
 }
 
 fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let rows = runs::rows(&RECORD.table(context)?, &[])?;
+    // The misprinted cone leaves more energy unaccounted for; the table says how much.
+    let judged: Vec<Run> = rows.iter().filter(|r| !r.label.contains(MISPRINTED)).cloned().collect();
     let mut outcome = Outcome {
         // Side walls hold a part.
-        checks: judge(&rows, &|r| !r.label.contains("side walls") && r.factor != "side walls"),
+        checks: judge(&judged, &|r| !r.label.contains("side walls") && r.factor != "side walls"),
         ..Outcome::default()
     };
     let [low, high] = measured();
@@ -148,14 +160,14 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             .because("a scatter needs a few")
             .from(Kind::Conservation, "rest: 1e-4 of the energy, balanced and steady forces"),
     );
-    let header = "set,force_40_n,deviation_40_n,runs_40,force_23_n,deviation_23_n,runs_23,ratio_1,ratio_error_1,reaches_measured\n";
+    let header = "set,force_40_n,deviation_40_n,runs_40,force_23_n,deviation_23_n,runs_23,ratio_1,ratio_error_1,energy_residual_1,reaches_measured\n";
     let line = |s: &Set| {
         let [ratio, error] = s.ratio();
         let reaches = ratio + 2.0 * error >= low && ratio - 2.0 * error <= high;
         let forces = s.forces.iter().map(|f| format!("{},{},{}", number(f.mean), number(f.deviation), f.count));
         let forces = forces.collect::<Vec<_>>().join(",");
         let reaches = if reaches { "yes" } else { "no" };
-        format!("{},{forces},{},{},{reaches}\n", quoted(&s.name), number(ratio), number(error))
+        format!("{},{forces},{},{},{},{reaches}\n", quoted(&s.name), number(ratio), number(error), number(s.residual))
     };
     for (name, sets) in [("flume_at_rest_sets", &sets), ("flume_at_rest_by_angle", &pairs)] {
         outcome.tables.push((name.into(), format!("{header}{}", sets.iter().map(line).collect::<String>())));
@@ -237,23 +249,24 @@ fn page(sets: &Table, pairs: &Table, ratios: &Table) -> Result<String, checkdam:
     text += "![Static force by input](flume_at_rest_plot.svg)\n\n";
     for (title, table) in [("One set for both angles", sets), ("Another gate by angle", pairs)] {
         text += &format!(
-            "## {title}\n\n| set | 40 degrees, N | 23 degrees, N | ratio | reaches the measured one |\n|---|---|---|---|---|\n"
+            "## {title}\n\n| set | 40 degrees, N | 23 degrees, N | ratio | reaches the measured one | energy not accounted for, % of E0 |\n|---|---|---|---|---|---|\n"
         );
         let (names, reaches) = (table.cells("set")?, table.cells("reaches_measured")?);
         let column = |name: &str| table.column(name).map(<[f64]>::to_vec);
         let [a, da, b, db] = ["force_40_n", "deviation_40_n", "force_23_n", "deviation_23_n"].map(column);
         let (a, da, b, db) = (a?, da?, b?, db?);
-        let (ratio, error) = (column("ratio_1")?, column("ratio_error_1")?);
+        let (ratio, error, residual) = (column("ratio_1")?, column("ratio_error_1")?, column("energy_residual_1")?);
         for k in 0..table.rows() {
             let force = |mean: f64, deviation: f64| format!("{mean:.0} \u{b1} {}", significant(deviation, 2));
             text += &format!(
-                "| {} | {} | {} | {:.2} \u{b1} {:.2} | {} |\n",
+                "| {} | {} | {} | {:.2} \u{b1} {:.2} | {} | {:.1} |\n",
                 names[k],
                 force(a[k], da[k]),
                 force(b[k], db[k]),
                 ratio[k],
                 error[k],
-                reaches[k]
+                reaches[k],
+                100.0 * residual[k]
             );
         }
         text.push('\n');
