@@ -82,6 +82,10 @@ impl Slips {
         self.watched.clear();
         self.sums.clear();
         self.sums.resize(if self.seen.is_empty() { 0 } else { sites }, Remembered::default());
+        let surfaces: Vec<&Boundary> = boundaries.iter().filter(|b| b.slip.is_some()).collect();
+        if surfaces.is_empty() {
+            return;
+        }
         self.seen.sort_unstable_by_key(|&(field, node, number, _)| (field, node, number));
         for (f, field) in fields.iter_mut().enumerate() {
             let first = &mut self.first[f];
@@ -90,7 +94,6 @@ impl Slips {
                 let begin = |node: u32| self.seen.partition_point(|s| (s.0, s.1) < (f, node)) as u32;
                 first.extend((0..=field.grid.len() as u32).map(begin));
             }
-            let surfaces: Vec<&Boundary> = boundaries.iter().filter(|b| b.slip.is_some()).collect();
             let reach = WATCHED * field.grid.spacing;
             let near = |x: [f64; 2]| surfaces.iter().any(|b| b.depth(x) > -reach);
             for (band, b) in field.bands.iter_mut().enumerate() {
@@ -119,14 +122,14 @@ impl Slips {
             let mass = field.bodies[at.body].point_mass;
             let points = &field.bands[at.band].points[at.body];
             let memory = points.slip(at.block);
-            for l in 0..points.points_in(at.block) {
+            for (l, slip) in memory.iter().enumerate().take(points.points_in(at.block)) {
                 let x = points.position(at.block * LANES + l);
                 for_each(field, &first[at.field], seen, shape, at.body, x, |site, weight| {
                     let tangent = clockwise(sites[site].normal);
                     let (sum, weight) = (&mut sums[site], mass * weight);
                     sum.weight += weight;
-                    sum.elastic += weight * dot(memory[l].elastic, tangent);
-                    sum.worn += weight * memory[l].worn;
+                    sum.elastic += weight * dot(slip.elastic, tangent);
+                    sum.worn += weight * slip.worn;
                 });
             }
         }
