@@ -41,6 +41,15 @@ impl Default for Block {
     }
 }
 
+/// Slip of a material point on the boundaries that it touches, see [`crate::boundary::slip`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Slip {
+    /// Elastic slip, m: a vector along the surface, so that it is the same for any grid and for any piece of the surface.
+    pub elastic: [f64; 2],
+    /// Plastic slip that has weakened the contact, m.
+    pub worn: f64,
+}
+
 /// One material point, as gauges and writers see it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Particle {
@@ -54,12 +63,14 @@ pub struct Particle {
     pub state: PointState,
     /// Current over reference volume.
     pub volume_ratio: f64,
+    /// Slip on boundaries.
+    pub slip: Slip,
 }
 
 impl Particle {
     /// A stress-free point at rest in its reference state.
     pub fn at_rest(id: u32, x: [f64; 2]) -> Self {
-        Self { id, x, v: [0.0; 2], state: PointState::default(), volume_ratio: 1.0 }
+        Self { id, x, v: [0.0; 2], state: PointState::default(), volume_ratio: 1.0, slip: Slip::default() }
     }
 
     /// Speed, m/s.
@@ -69,7 +80,7 @@ impl Particle {
 }
 
 impl Block {
-    /// Reads one lane, the point of this number, without what its law keeps of its own.
+    /// Reads one lane, the point of this number, without what its law keeps of its own and without slip.
     #[inline]
     pub fn get(&self, l: usize, id: u32) -> Particle {
         Particle {
@@ -88,6 +99,7 @@ impl Block {
                 history: History::default(),
             },
             volume_ratio: self.volume_ratio[l],
+            slip: Slip::default(),
         }
     }
 
@@ -117,6 +129,8 @@ pub struct Points {
     /// What the law keeps of its own, block by block, and how many lanes of it a block has: [`Law::HISTORY`].
     histories: Vec<Lane>,
     history: usize,
+    /// Slip on boundaries, parallel to the blocks; empty where no point has slipped.
+    slips: Vec<[Slip; LANES]>,
     len: usize,
 }
 
@@ -141,6 +155,7 @@ impl Points {
         self.blocks.clear();
         self.ids.clear();
         self.histories.clear();
+        self.slips.clear();
         self.len = 0;
     }
 
@@ -168,6 +183,25 @@ impl Points {
         {
             lane[i % LANES] = value;
         }
+        if p.slip != Slip::default() || !self.slips.is_empty() {
+            self.slips_mut()[i / LANES][i % LANES] = p.slip;
+        }
+    }
+
+    /// Slip of the points of a block on boundaries.
+    pub fn slip(&self, number: usize) -> [Slip; LANES] {
+        self.slips.get(number).copied().unwrap_or_default()
+    }
+
+    /// The same of all blocks, mutable.
+    pub fn slips_mut(&mut self) -> &mut [[Slip; LANES]] {
+        self.slips.resize(self.blocks.len(), Default::default());
+        &mut self.slips
+    }
+
+    /// Whether no point has slipped on a boundary.
+    pub fn is_unslipped(&self) -> bool {
+        self.slips.is_empty()
     }
 
     /// Position of point `i`, m.
@@ -238,9 +272,13 @@ impl Points {
     pub fn iter(&self) -> impl Iterator<Item = Particle> {
         self.blocks().zip(&self.ids).enumerate().flat_map(|(i, ((b, n), ids))| {
             let history = &self.histories[i * self.history..(i + 1) * self.history];
+            let slips = self.slips.get(i);
             (0..n).map(move |l| {
                 let mut p = b.get(l, ids[l]);
                 p.state.history.iter_mut().zip(history).for_each(|(value, lane)| *value = lane[l]);
+                if let Some(slips) = slips {
+                    p.slip = slips[l];
+                }
                 p
             })
         })
@@ -251,6 +289,7 @@ impl Points {
         self.blocks.capacity() * size_of::<Block>()
             + self.ids.capacity() * size_of::<[u32; LANES]>()
             + self.histories.capacity() * size_of::<Lane>()
+            + self.slips.capacity() * size_of::<[Slip; LANES]>()
     }
 }
 

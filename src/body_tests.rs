@@ -15,6 +15,7 @@ fn distinct(id: u32) -> Particle {
             history: History::default(),
         },
         volume_ratio: n(11),
+        slip: Slip::default(),
     }
 }
 

@@ -67,6 +67,7 @@ validations!(
     flume_noise,
     flume_baseline,
     flume_sensitivity,
+    flume_at_rest,
     flume_calibration,
     flume_verdict,
     barrier_beam,

@@ -15,12 +15,20 @@ pub enum FaultKind {
     Density,
     /// The impulse that a boundary reports.
     ContactForce,
+    /// Slip over which friction is mobilised.
+    SlipLength,
 }
 
 impl FaultKind {
     /// All of them.
-    pub const ALL: [FaultKind; 5] =
-        [FaultKind::Friction, FaultKind::Modulus, FaultKind::Gravity, FaultKind::Density, FaultKind::ContactForce];
+    pub const ALL: [FaultKind; 6] = [
+        FaultKind::Friction,
+        FaultKind::Modulus,
+        FaultKind::Gravity,
+        FaultKind::Density,
+        FaultKind::ContactForce,
+        FaultKind::SlipLength,
+    ];
 
     /// Name in reports.
     pub fn name(self) -> &'static str {
@@ -30,6 +38,7 @@ impl FaultKind {
             FaultKind::Gravity => "gravity",
             FaultKind::Density => "density",
             FaultKind::ContactForce => "contact_force",
+            FaultKind::SlipLength => "slip_length",
         }
     }
 }
@@ -47,11 +56,14 @@ pub struct Fault {
     pub density: f64,
     /// See [`FaultKind::ContactForce`].
     pub contact_force: f64,
+    /// See [`FaultKind::SlipLength`].
+    pub slip_length: f64,
 }
 
 impl Fault {
     /// Nothing wrong.
-    pub const NONE: Fault = Fault { friction: 1.0, modulus: 1.0, gravity: 1.0, density: 1.0, contact_force: 1.0 };
+    pub const NONE: Fault =
+        Fault { friction: 1.0, modulus: 1.0, gravity: 1.0, density: 1.0, contact_force: 1.0, slip_length: 1.0 };
 
     /// One factor wrong.
     pub fn of(kind: FaultKind, factor: f64) -> Self {
@@ -62,6 +74,7 @@ impl Fault {
             FaultKind::Gravity => &mut fault.gravity,
             FaultKind::Density => &mut fault.density,
             FaultKind::ContactForce => &mut fault.contact_force,
+            FaultKind::SlipLength => &mut fault.slip_length,
         } = factor;
         fault
     }

@@ -27,6 +27,7 @@ pub mod report;
 pub mod scene;
 pub mod self_weight;
 pub mod sliding_block;
+pub mod slip;
 pub mod wall_place;
 pub mod wall_pressure;
 
@@ -133,6 +134,7 @@ ladder! { $
     exactness,
     self_weight,
     sliding_block,
+    slip,
     wall_place,
     drucker_prager_point,
     celerity,

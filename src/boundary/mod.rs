@@ -9,10 +9,12 @@
 pub mod nodes;
 pub mod search;
 mod side;
+pub mod slip;
 pub mod surface;
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
+use slip::SlipLaw;
 
 /// Where boundaries act.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
@@ -98,6 +100,8 @@ pub struct Boundary {
     pub tangent: Vector2<f64>,
     /// What resists sliding.
     pub friction: Friction,
+    /// How slip mobilises Coulomb friction, where it needs slip and contact is on the surface.
+    pub slip: Option<SlipLaw>,
     /// Indices of the bodies that it acts on; empty for all. Bodies that share a velocity field are held together.
     pub bodies: Vec<usize>,
     /// Velocity of the boundary, m/s. Moves the solid, too.
@@ -131,6 +135,7 @@ impl Boundary {
             normal,
             tangent: Vector2::new(normal.y, -normal.x),
             friction,
+            slip: None,
             bodies: Vec::new(),
             velocity: Vector2::zeros(),
             travel: Vector2::zeros(),
@@ -161,6 +166,16 @@ impl Boundary {
     /// The same boundary for some bodies only, by index.
     pub fn only_for(self, bodies: &[usize]) -> Self {
         Self { bodies: bodies.to_vec(), ..self }
+    }
+
+    /// The same with Coulomb friction that is mobilised over a slip length (m, above 0) up to a static coefficient, which may be larger
+    /// than the kinetic one; of other boundaries nothing changes.
+    pub fn mobilised(self, length: f64, peak: f64) -> Self {
+        let slip = match self.friction {
+            Friction::Coulomb(kinetic) if peak > 0.0 => Some(SlipLaw { length, peak: peak.max(kinetic), kinetic }),
+            _ => self.slip,
+        };
+        Self { slip, ..self }
     }
 
     /// Whether it acts on any of these bodies.

@@ -125,12 +125,21 @@ impl<'a> Search<'a> {
                 let b = &self.boundaries[face.index];
                 let along = if face.is_narrow() { b.face_coordinates(x).1 } else { s };
                 let contact = Contact { normal: face.side.normal.into(), along };
-                found.holds.push(Hold::new(node, x, face.index, b, contact, true));
+                self.hold(Hold::new(node, x, face.index, b, contact, true), x, found);
                 return;
             }
         }
         if !crossed {
-            found.holds.extend(self.inside(node, x, faces));
+            self.inside(node, x, faces).into_iter().for_each(|hold| self.hold(hold, x, found));
+        }
+    }
+
+    /// Adds what holds the node at `x`: where friction needs slip, as a crossing that remembers it.
+    fn hold(&self, hold: Hold, x: [f64; 2], found: &mut Found) {
+        let own = &self.boundaries[hold.boundary as usize];
+        match own.slip {
+            Some(_) => found.sites.push(Site::at_node(&hold, x, own)),
+            None => found.holds.push(hold),
         }
     }
 
@@ -200,7 +209,7 @@ impl<'a> Search<'a> {
         let (side, half) = (&face.side, 0.5 * face.line);
         let (_, along) = side.face_coordinates(at.into());
         let end = self.end(side, along, half);
-        let off = face.plate || end.is_some() || d < -face.near();
+        let off = face.plate || end.is_some() || d < -face.near() || side.slip.is_some();
         if !off || !self.is_on_face(face, at.into(), along, if end.is_some() { half } else { 0.0 }) {
             return None;
         }

@@ -8,9 +8,12 @@
 //! Elsewhere: an immersed or embedded boundary with Lagrange multipliers at the intersections of surface and grid; a multi-point
 //! constraint with its adjoint distribution of forces.
 
+mod sliding;
+
 use super::Boundary;
 use super::nodes::{HoldState, Tally, work_along};
 use crate::space::{clockwise, dot, mean, minus, moment, plus, scaled};
+use sliding::SiteSlip;
 
 /// A crossing of a boundary's surface with a grid line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +42,8 @@ pub struct Site {
     arm: [f64; 2],
     /// Friction coefficient.
     friction: f64,
+    /// What of that is mobilised, where friction needs slip.
+    slip: Option<SiteSlip>,
     /// Whether points decide about contact: how far they are is then set in each step.
     pub plate: bool,
     /// Speed at which material may still approach in this step, m/s; infinite where there is none.
@@ -97,6 +102,7 @@ impl Site {
             x,
             arm: minus(x, foot),
             friction: side.friction.coefficient(),
+            slip: side.slip.map(SiteSlip::new),
             plate,
             free: 0.0,
             impulse: [0.0; 2],
@@ -201,9 +207,14 @@ impl Site {
         let stick = self.impulse[1] - dot(rel, t) / mobility;
         // 0 x infinity must not arise.
         let limit = if normal > 0.0 && with_friction { self.friction * normal } else { 0.0 };
-        let tangential = stick.clamp(-limit, limit);
+        let tangential = match &self.slip {
+            Some(slip) if with_friction => slip.impulse(normal, stick, mobility),
+            _ => stick.clamp(-limit, limit),
+        };
         self.state = match () {
             () if normal <= 0.0 => HoldState::Apart,
+            // On elastic slip nothing stands still.
+            () if self.slip.is_some() => HoldState::Slipping,
             () if limit > 0.0 && stick.abs() <= limit => HoldState::Sticking,
             () => HoldState::Slipping,
         };

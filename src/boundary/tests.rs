@@ -226,3 +226,16 @@ fn only_gates_can_be_released() {
     let p = plane(vector(0.0, 1.0)).gate(Opening::Vanish);
     assert_eq!((p.solid, p.opening), (plane(vector(0.0, 1.0)).solid, Some(Opening::Vanish)));
 }
+
+#[test]
+fn friction_needs_slip_only_where_there_is_some() {
+    let coulomb = Boundary { friction: Friction::Coulomb(0.4), ..plane(vector(0.0, 1.0)) };
+    let law = coulomb.clone().mobilised(1e-3, 0.5).slip.expect("a law");
+    assert_eq!((law.length, law.peak, law.kinetic), (1e-3, 0.5, 0.4));
+    // Static friction is never less than kinetic.
+    assert_eq!(coulomb.mobilised(1e-3, 0.3).slip.map(|l| l.peak), Some(0.4));
+    for friction in [Friction::Smooth, Friction::Coulomb(0.0), Friction::Rough, Friction::Bonded] {
+        let other = Boundary { friction, ..plane(vector(0.0, 1.0)) };
+        assert_eq!(other.mobilised(1e-3, 0.0).slip, None);
+    }
+}

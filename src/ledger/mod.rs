@@ -19,6 +19,10 @@ pub struct Ledger {
     pub gravity: [f64; 2],
     /// One per boundary.
     pub boundaries: Vec<Tally>,
+    /// Energy of the elastic slip on each boundary now, J.
+    pub elastic_slip: Vec<f64>,
+    /// The same when the ledger was opened.
+    pub opening_slip: Vec<f64>,
     /// One per contact of two bodies; their impulses cancel.
     pub contacts: Vec<ContactTally>,
     /// Mass-proportional damping.
@@ -46,6 +50,8 @@ impl Ledger {
     pub fn new(boundaries: usize, contacts: usize) -> Self {
         Self {
             boundaries: vec![Tally::default(); boundaries],
+            elastic_slip: vec![0.0; boundaries],
+            opening_slip: vec![0.0; boundaries],
             contacts: vec![ContactTally::default(); contacts],
             ..Self::default()
         }
@@ -87,11 +93,11 @@ pub struct EnergyBalance {
     pub kinetic: f64,
     /// Gravitational energy now, above the datum.
     pub gravitational: f64,
-    /// Elastic energy now.
+    /// Elastic energy now, of the material and of elastic slip on boundaries.
     pub elastic: f64,
     /// Work of the stresses that was not stored: plastic dissipation.
     pub plastic: f64,
-    /// Friction on each boundary, then in each contact of two bodies.
+    /// Friction on each boundary, less what its elastic slip stores; then in each contact of two bodies.
     pub friction: Vec<f64>,
     /// Loss of normal motion at each boundary, negative where a moving boundary does work; then in each contact of two bodies.
     pub contact: Vec<f64>,
@@ -115,16 +121,20 @@ impl EnergyBalance {
     /// Balances what was there when the ledger was opened against what is there now. `datum` (J) is the gravitational energy of
     /// the mass at the level counted as zero, opening and now.
     pub fn new(ledger: &Ledger, opening: &Stock, now: &Stock, datum: [f64; 2]) -> Self {
-        let initial = opening.kinetic + opening.gravitational - datum[0] + opening.elastic;
+        let slip = [&ledger.opening_slip, &ledger.elastic_slip].map(|s| s.iter().sum::<f64>());
+        let initial = opening.kinetic + opening.gravitational - datum[0] + (opening.elastic + slip[0]);
         let pairs = || ledger.contacts.iter().map(|c| &c.exchange);
+        // What the elastic slip holds of the work against friction is not lost.
+        let stored = |k: usize| ledger.elastic_slip[k] - ledger.opening_slip[k];
+        let boundaries = ledger.boundaries.iter().enumerate();
         let friction: Vec<f64> =
-            ledger.boundaries.iter().map(|b| -b.friction_work).chain(pairs().map(|c| -c.friction_work)).collect();
+            boundaries.map(|(k, b)| -b.friction_work - stored(k)).chain(pairs().map(|c| -c.friction_work)).collect();
         let contact: Vec<f64> =
             ledger.boundaries.iter().map(|b| -b.normal_work).chain(pairs().map(|c| -c.normal_work)).collect();
         let mut balance = Self {
             kinetic: now.kinetic,
             gravitational: now.gravitational - datum[1],
-            elastic: now.elastic,
+            elastic: now.elastic + slip[1],
             plastic: ledger.internal_work - (now.elastic - opening.elastic),
             friction,
             contact,

@@ -82,7 +82,7 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Depo
     let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base.normal);
     let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base.friction);
     let weight = mass * along;
-    let limit = mu * base_normal;
+    let limit = base.slip.map_or(mu, |s| s.peak) * base_normal;
     // What the other boundaries and bodies take, from the ledger: the barrier, and whatever else the deposit leans on. What clamps
     // do to a barrier that is a body is no concern of the deposit.
     let end = records.momentum.last()?;

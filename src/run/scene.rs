@@ -131,6 +131,10 @@ fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
         case::Shape::Wall(w) => wall(w),
         case::Shape::Gate(w, opening) => wall(w).gate(opening),
     };
+    let boundary = match b.slip() {
+        Some([length, peak]) => boundary.mobilised(length, peak),
+        None => boundary,
+    };
     Some(boundary.only_for(&named))
 }
 

@@ -243,7 +243,10 @@ impl Simulation {
 
     /// Starts a new ledger now.
     pub fn open_ledger(&mut self) {
+        let slip = std::mem::take(&mut self.ledger.elastic_slip);
         self.ledger = Ledger::new(self.boundaries.len(), self.ledger.contacts.len());
+        self.ledger.opening_slip.clone_from(&slip);
+        self.ledger.elastic_slip = slip;
         self.opening = self.stock();
     }
 

@@ -30,6 +30,7 @@ mod field;
 mod implicit;
 mod occupied;
 mod scene;
+mod slip;
 mod stages;
 mod surface;
 mod sweep;
@@ -214,7 +215,7 @@ impl Simulation {
                         if !coupling.is_empty() {
                             coupling.exchange(fields, boundaries, numerics.shape, dt, implicit);
                         }
-                        surface.solve(fields, boundaries, dt);
+                        surface.solve(fields, boundaries, numerics.shape, dt);
                     });
                     after = Some(Turn::Finish);
                 }
@@ -284,6 +285,8 @@ impl Simulation {
             sum.merge(tally);
             ledger.impulse_scale += tally.exchange.impulse[0].abs() + tally.exchange.impulse[1].abs();
         }
+        ledger.elastic_slip.fill(0.0);
+        self.surface.slip_energy(&mut ledger.elastic_slip);
         for d in 0..2 {
             let impulse = self.heavy * self.forces.gravity[d] * dt;
             ledger.gravity[d] += impulse;

@@ -6,12 +6,14 @@
 //! Elsewhere: block Gauss-Seidel on the connected components of the constraint graph.
 
 use super::VelocityField;
+use super::slip::Slips;
 use crate::band::with_before;
 use crate::body::Block;
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Tally};
 use crate::boundary::surface::{Site, SiteNode};
 use crate::momentum;
+use crate::shape::ShapeFunction;
 use crate::space::{dot, mean, minus, moment, plus, scaled};
 use std::ops::Range;
 
@@ -63,6 +65,7 @@ pub(super) struct Surface {
     sites: Vec<Site>,
     states: Vec<SiteNode>,
     near: Vec<Near>,
+    slips: Slips,
     /// What the crossings with each boundary did in the last step, field by field.
     tallies: Vec<Vec<Tally>>,
 }
@@ -83,11 +86,18 @@ impl Surface {
         self.tallies.get(field).map_or(&[], Vec::as_slice)
     }
 
+    /// Energy of the elastic slip on each boundary, added to `sums`, J.
+    pub fn slip_energy(&self, sums: &mut [f64]) {
+        let slipping = self.sites.iter().filter(|s| s.slip_law().is_some());
+        slipping.for_each(|s| sums[s.boundary as usize] += s.slip_energy());
+    }
+
     /// Follows a new layout of the fields, and tells their bands which nodes to leave open.
     pub fn list(&mut self, fields: &mut [VelocityField], boundaries: usize) {
         self.groups.clear();
         self.nodes.clear();
         self.sites.clear();
+        self.slips.clear(fields.len());
         self.tallies.resize_with(fields.len(), Vec::new);
         for (f, field) in fields.iter_mut().enumerate() {
             self.tallies[f].clear();
@@ -126,6 +136,7 @@ impl Surface {
             own.dedup();
             for &(_, k) in group {
                 let mut site = crossings[k];
+                self.slips.add(f, self.sites.len(), &site);
                 site.nodes = site.nodes.map(|n| own.partition_point(|&o| o < n) as u32);
                 self.sites.push(site);
             }
@@ -150,11 +161,12 @@ impl Surface {
     }
 
     /// Finds the nodes among those that the bands leave open, once these are sorted, and the points near plates and ends.
-    pub fn find(&mut self, fields: &[VelocityField], boundaries: &[Boundary], spacing: f64) {
+    pub fn find(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], spacing: f64) {
         for place in &mut self.nodes {
             let shared = &fields[place.field].bands[place.band].shared;
             place.index = shared.partition_point(|&n| (n as usize) < place.node);
         }
+        self.slips.find(fields, boundaries, self.sites.len());
         self.near.clear();
         for group in &self.groups {
             for site in group.sites.clone().filter(|&s| self.sites[s].is_watched()) {
@@ -205,8 +217,9 @@ impl Surface {
     }
 
     /// Closes the momentum balance of the nodes: the impulses of all that holds them.
-    pub fn solve(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], dt: f64) {
+    pub fn solve(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], shape: ShapeFunction, dt: f64) {
         self.look(fields, boundaries, dt);
+        self.slips.recall(fields, shape, &mut self.sites, dt);
         let Self { groups, nodes, sites, states, tallies, .. } = self;
         tallies.iter_mut().for_each(|t| t.fill(Tally::default()));
         for group in groups.iter() {
@@ -235,6 +248,7 @@ impl Surface {
             }
             book(places, states, sites, fields, tallies);
         }
+        self.slips.remember(fields, shape, sites);
     }
 
     /// Keeps single points before the plates and ends of walls that they were before: between the crossings, the velocity of the grid
@@ -347,13 +361,14 @@ fn visit(
 fn book(
     places: &[Place],
     states: &[SiteNode],
-    sites: &[Site],
+    sites: &mut [Site],
     fields: &mut [VelocityField],
     tallies: &mut [Vec<Tally>],
 ) {
     let Some(first) = places.first() else { return };
     let tallies = &mut tallies[first.field];
-    for site in sites {
+    for site in sites.iter_mut() {
+        site.follow_slip(states);
         if let Some(tally) = site.tally(states) {
             tallies[site.boundary as usize].add(&tally);
         }

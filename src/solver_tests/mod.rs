@@ -6,6 +6,7 @@ mod edges;
 mod failures;
 mod forces;
 mod motion;
+mod slip;
 mod surface;
 
 use crate::boundary::Boundary;

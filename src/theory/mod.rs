@@ -24,4 +24,5 @@ pub mod outflow;
 pub mod pic;
 pub mod self_weight;
 pub mod sliding_block;
+pub mod slip;
 pub mod vortex;

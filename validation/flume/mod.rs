@@ -3,6 +3,7 @@
 //! [`VALIDATION`] runs both cases as the command does; [`noise`] repeats them on moved grids to see a shift of a few percent;
 //! [`baseline`], [`sensitivity`] and [`calibration`] analyse studies of many runs; [`verdict`] compares with the paper.
 
+pub mod at_rest;
 pub mod baseline;
 pub mod calibration;
 mod compare;

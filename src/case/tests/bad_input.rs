@@ -60,6 +60,21 @@ const VALUES_OUT_OF_RANGE: &[Bad] = &[
     ("height_m = 0.5", "height_m = 0", "height_m = 0 ", &["boundaries[2].height_m = 0"]),
 ];
 
+#[rustfmt::skip]
+const FRICTION_THAT_NEEDS_SLIP: &[Bad] = &[
+    ("normal_deg = 90", "normal_deg = 90\nslip_length_m = 0.001", "slip_length_m = 0.001", &["boundaries[0].slip_length_m = 0.001", "contact on the surface", "boundary_contact = \"surface\""]),
+    ("normal_deg = 90", "normal_deg = 90\nslip_length_m = -0.001", "slip_length_m = -0.001", &["slip_length_m >= 0"]),
+    ("normal_deg = 90", "normal_deg = 90\nstatic_friction = 0.5", "static_friction = 0.5", &["boundaries[0].static_friction", "only with a slip length", "slip_length_m = 0.0005"]),
+    ("normal_deg = 90", "normal_deg = 90\nstatic_friction = 0.3", "static_friction = 0.3", &["at least the kinetic coefficient, friction = 0.4"]),
+    ("material_side = \"right\"", "material_side = \"right\"\nslip_length_m = 0.001", "slip_length_m = 0.001", &["boundaries[1].slip_length_m", "a contact other than \"coulomb\"", "remove the line"]),
+    ("height_m = 0.5                     # [paper]\ncontact = \"smooth\"", "height_m = 0.5\nslip_length_m = 0.001\nfriction = 0.1\ncontact = \"coulomb\"", "slip_length_m = 0.001", &["boundaries[2].slip_length_m", "planes and walls with slip"]),
+];
+
+#[test]
+fn friction_that_needs_slip() {
+    check(FRICTION_THAT_NEEDS_SLIP);
+}
+
 #[test]
 fn values_out_of_range() {
     check(VALUES_OUT_OF_RANGE);

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{Checker, toml_text};
+use crate::boundary::BoundaryContact;
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind, OpeningKind};
 use crate::case::contact::BodyContact;
 use crate::case::file_name;
@@ -31,6 +32,7 @@ impl Checker<'_> {
             let at = list.index(index);
             self.fields_of_kind(&at, boundary);
             self.contact(&at, boundary);
+            self.slip(&at, boundary);
             self.opening(&at, boundary);
             self.acts_on(&at, boundary);
             for (key, number, example) in [
@@ -147,6 +149,34 @@ impl Checker<'_> {
                 self.problem(&path, what, &friction, "friction only with contact = \"coulomb\"", fix);
             }
             friction => self.not_negative(&path, friction.unwrap_or(0.0), 0.4),
+        }
+    }
+
+    /// Friction that needs slip.
+    fn slip(&mut self, at: &KeyPath, boundary: &Boundary) {
+        let coulomb = boundary.contact == ContactKind::Coulomb;
+        let refused = [("slip_length_m", boundary.slip_length_m), ("static_friction", boundary.static_friction)];
+        for (key, given) in refused.into_iter().filter(|_| !coulomb) {
+            let need = if given.is_some() { Refused } else { Optional };
+            self.field(at, (key, &given), need, "a contact other than \"coulomb\"");
+        }
+        let path = at.key("slip_length_m");
+        let length = boundary.slip_length_m.unwrap_or(0.0);
+        self.not_negative(&path, length, 5e-4);
+        if length > 0.0 && boundary.kind == BoundaryKind::Gate {
+            let fix = "remove the line: a gate is in contact with material that waits";
+            self.not_allowed(&path, &length, "planes and walls with slip", fix);
+        } else if length > 0.0 && self.case.numerics.boundary_contact == BoundaryContact::Nodes {
+            let fix = "use numerics.boundary_contact = \"surface\", or remove the line";
+            self.not_allowed(&path, &length, "slip only with contact on the surface", fix);
+        }
+        let (Some(peak), Some(kinetic), true) = (boundary.static_friction, boundary.friction, coulomb) else { return };
+        let path = at.key("static_friction");
+        let allowed = format!("at least the kinetic coefficient, friction = {}", toml_text(&kinetic));
+        self.require(&path, peak, peak >= kinetic, &allowed, "raise it, or remove the line");
+        if peak > kinetic && length == 0.0 {
+            let fix = "add a line such as slip_length_m = 0.0005";
+            self.not_allowed(&path, &peak, "static friction only with a slip length, over which it falls", fix);
         }
     }
 

@@ -171,8 +171,14 @@ impl ImplicitBody {
                 law.update(&mut state, &increment);
                 let volume_ratio = law.volume_ratio(&state, base.volume_ratio, &increment);
                 smallest = smallest.min(volume_ratio);
-                let point =
-                    Particle { id: base.id, x: plus(base.x, moved), v: plus(base.v, faster), state, volume_ratio };
+                let point = Particle {
+                    id: base.id,
+                    x: plus(base.x, moved),
+                    v: plus(base.v, faster),
+                    state,
+                    volume_ratio,
+                    slip: base.slip,
+                };
                 band.points[0].set(i, &point);
             }
             band.sums.min_volume_ratio = smallest;
