@@ -67,6 +67,7 @@ impl Brick {
             weightless: false,
             between_side_walls: true,
             implicit: false,
+            mesh: None,
         }
     }
 }

@@ -52,6 +52,7 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
         weightless: false,
         between_side_walls: true,
         implicit: false,
+        mesh: None,
     };
     let corner = [0.0, 0.0].into();
     Simulation::new(Scene {

@@ -35,8 +35,8 @@ pub use grid::{Domain, Grid};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
-    Body, Case, Gravity, Integration, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run, Settle,
-    SideWalls, Stages, Tilt,
+    Body, Case, Gravity, Integration, Kinematics, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run,
+    Settle, SideWalls, Stages, Tilt,
 };
 pub use validate::{Findings, Problem, validate};
 

@@ -5,6 +5,7 @@ mod boundaries;
 mod contacts;
 mod cost;
 mod gauges;
+mod kinematics;
 mod materials;
 mod sections;
 mod walls;
