@@ -49,7 +49,7 @@
 //! run:          body boundary case constitutive contact gauge grid ledger mesh output plot shape simulation space timestep
 //! study:        case check output plot run
 //! reference:    case run study
-//! scaffold:     body boundary constitutive grid shape simulation
+//! scaffold:     body boundary constitutive grid mesh shape simulation
 //! ```
 //!
 //! Start with [`simulation::Simulation::step`], which is the algorithm on one screen, or with [`run::run`].

@@ -69,7 +69,8 @@ impl Mesh {
             let mut from = 0.0;
             for to in ends {
                 let count = (0.5 * (to - from) / spacing).round().max(1.0);
-                lines.extend((1..=count as usize).map(|k| from + (to - from) * (k as f64 / count)));
+                lines.extend((1..count as usize).map(|k| from + (to - from) * (k as f64 / count)));
+                lines.push(to);
                 from = to;
             }
             lines

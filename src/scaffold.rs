@@ -8,6 +8,7 @@ use crate::body::{Body, Particle};
 use crate::boundary::{Boundary, BoundaryContact};
 use crate::constitutive::{AnyLaw, LinearElastic};
 use crate::grid::Lattice;
+use crate::mesh::Mesh;
 use crate::shape::ShapeFunction;
 use crate::simulation::{Numerics, PicShare, Scene, Scheme, Simulation, StepFailure};
 
@@ -51,6 +52,11 @@ impl Brick {
                 Particle::at_rest(k as u32, [self.corner[0] + c * a - t * b, self.corner[1] + t * a + c * b])
             })
             .collect()
+    }
+
+    /// The brick as a mesh with edges of elements at the `cuts` (m along its base and its side).
+    pub fn mesh(&self, cuts: [&[f64]; 2]) -> Mesh {
+        Mesh::rectangle(self.corner, self.angle, self.cells.map(|n| n as f64 * self.spacing), self.spacing, cuts)
     }
 
     /// A body of `law` whose points are those of this brick.

@@ -73,7 +73,8 @@ pub struct Stepping {
     pub time_step_max_s: f64,
     /// What limited the shortest time step.
     pub time_step_limited_by: String,
-    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps and contact agreed.
+    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps or total-Lagrangian kinematics and contact
+    /// agreed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_sweeps_max: Option<usize>,
 }
@@ -185,7 +186,7 @@ impl Summary {
         if let Some([most, allowed]) = sim.contact_sweeps()
             && most >= allowed
         {
-            warn(format!("contact with a body in implicit steps was not settled after {allowed} sweeps of a step"));
+            warn(format!("contact with a structure was not settled after {allowed} sweeps of a step"));
         }
         if let Some(s) = &self.structure {
             s.warn("the barrier", &mut warn);

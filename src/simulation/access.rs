@@ -222,8 +222,8 @@ impl Simulation {
         self.coupling.points()
     }
 
-    /// The most sweeps over the nodes in contact that a step needed until structures in steps of their own and contact agreed, and the most
-    /// that are allowed; `None` without such bodies.
+    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps or with a mesh and contact agreed, and
+    /// the most that are allowed; `None` without such bodies.
     pub fn contact_sweeps(&self) -> Option<[usize; 2]> {
         self.structures.iter().map(Structure::passes).max()
     }

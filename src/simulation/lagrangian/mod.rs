@@ -165,8 +165,13 @@ impl LagrangianBody {
         }
     }
 
-    /// Gives the nodes the velocities of the points, by least squares.
+    /// Gives the nodes the velocities of the points, by least squares: what is linear in space first, then the rest.
     fn set_velocities(&mut self, body: &Body, particles: &[Particle], boundaries: &[Boundary]) {
+        let (centre, mean, slope) = linear_fit(particles);
+        for (v, x) in self.velocity.iter_mut().zip(&self.start) {
+            let r = minus(*x, centre);
+            *v = plus(mean, slope.map(|s| dot(s, r)));
+        }
         for _ in 0..ROUNDS {
             let mut missing = vec![[0.0; 2]; self.mass.len()];
             for (point, p) in self.points.iter().zip(particles) {
@@ -229,6 +234,26 @@ impl LagrangianBody {
         }
         s
     }
+}
+
+/// Mean position (m) and velocity (m/s) of particles, and the gradients of both components of the velocity that fit them best, 1/s.
+fn linear_fit(particles: &[Particle]) -> ([f64; 2], [f64; 2], [[f64; 2]; 2]) {
+    let per = 1.0 / particles.len().max(1) as f64;
+    let mean = |of: fn(&Particle) -> [f64; 2]| scaled(particles.iter().fold([0.0; 2], |s, p| plus(s, of(p))), per);
+    let (x, v) = (mean(|p| p.x), mean(|p| p.v));
+    let (mut square, mut product) = ([0.0; 3], [[0.0; 2]; 2]);
+    for p in particles {
+        let (r, w) = (minus(p.x, x), minus(p.v, v));
+        square = plus(square, [r[0] * r[0], r[0] * r[1], r[1] * r[1]]);
+        product = [0, 1].map(|d| plus(product[d], scaled(r, w[d])));
+    }
+    let [a, b, c] = square;
+    let determinant = a * c - b * b;
+    // A single row of points says nothing of what is across it.
+    if determinant <= 1e-12 * (a + c) * (a + c) {
+        return (x, v, [[0.0; 2]; 2]);
+    }
+    (x, v, product.map(|[p, q]| [(c * p - b * q) / determinant, (a * q - b * p) / determinant]))
 }
 
 /// A field given at the nodes, at a place.
