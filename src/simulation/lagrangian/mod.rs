@@ -216,7 +216,8 @@ impl LagrangianBody {
     /// What it holds now, by its nodes, where gravity is `gravity` (m/s2), of which `heavy` says whether it acts, and steps are `dt` (s).
     ///
     /// Velocities are those of the middle of the last step. The kinetic energy is half the product of the momenta with velocities half a step before
-    /// and after now: with it and the elastic energy now, the energy of a linear body stays to round-off.
+    /// and after now: with it and the elastic energy now, the energy of a linear body stays to round-off. Where a body comes to rest it may be
+    /// less than zero by next to nothing.
     pub fn stock(&self, gravity: [f64; 2], heavy: bool, dt: f64) -> Stock {
         let mut s = Stock { elastic: self.elastic, ..Stock::default() };
         for (node, (&m, &v)) in self.mass.iter().zip(&self.velocity).enumerate() {
