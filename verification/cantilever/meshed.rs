@@ -6,6 +6,8 @@
 //! deep, by 0.08 % for six square ones, and by 0.12 % at Poisson's ratio zero (derived here). With Poisson's ratio 0.3 the clamp prevents
 //! lateral strain in its first element as a whole: E' there is larger by 1/(1 - (nu/(1 - nu))^2) = 1.225, which moves the foot by up to
 //! 0.18 a. A fifth of that was seen. It is gone at Poisson's ratio zero, where the stiffness is checked to half a percent.
+//! Quadratic functions of the depth have no parabola of shear: one element through the depth shears by 5/6 of what is due, which is 0.37 % of
+//! this deflection at L/t = 6 and Poisson's ratio zero.
 //! The points only go along: with four, nine or sixteen a cell the nodes do the same, and what differs is where the highest of them lie.
 //!
 //! The swing is that of other codes' tests: 4 m by 1 m, E = 1 MPa, nu = 0.3, 1050 kg/m3, gravity of 9.8 m/s2 at once. Finite elements, as
@@ -62,8 +64,11 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
     let beam = plate(2, 2, NO_LATERAL_STRAIN);
     let error = bend(&beam, fault, &mut rows)?;
     outcome.check(
-        Check::value("mesh, L/t = 6, nu = 0, 2 cells: error of the tip's deflection", error, -0.0012, "1")
-            .within(Tolerance::Absolute(0.005), "warping at the clamp")
+        Check::value("mesh, L/t = 6, nu = 0, 2 cells: error of the tip's deflection", error, -0.0049, "1")
+            .within(
+                Tolerance::Absolute(0.001),
+                "0.12 % along the beam and 0.37 % of shear, as derived; next order in a/L",
+            )
             .from(Kind::Analytic, TIMOSHENKO),
     );
     frequency(&beam, fault, outcome)?;
