@@ -187,7 +187,7 @@ mod tests {
         // Pieces of 0.2 and 0.7 m in elements of 0.1 m; 0.2 m in two.
         let lines = mesh().lines;
         assert_eq!(lines.each_ref().map(Vec::len), [10, 3]);
-        assert!(lines[0].iter().any(|l| *l == 0.2) && *lines[0].last().expect("a line") == 0.9);
+        assert!(lines[0].contains(&0.2) && *lines[0].last().expect("a line") == 0.9);
         // A piece of two cells is an element, one of three cells two; one of half a cell is one.
         for (length, elements) in [(2.0, 1), (3.0, 2), (0.5, 1), (4.9, 2), (5.1, 3)] {
             let m = Mesh::rectangle([0.0; 2], 0.0, [length, 2.0], 1.0, [&[], &[]]);

@@ -118,6 +118,7 @@ pub fn barrier(spacing: f64, implicit: bool) -> Simulation {
         weightless: false,
         between_side_walls: true,
         implicit,
+        mesh: None,
     };
     let plane =
         |name: &str, normal: [f64; 2], friction| Boundary::plane(name, [0.0; 2].into(), normal.into(), friction);

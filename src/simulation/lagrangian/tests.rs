@@ -68,8 +68,8 @@ fn a_square_that_spins_and_breathes_keeps_momentum_angular_momentum_and_energy()
         assert!(change.abs() < 1e-11, "{change:e} after {} s", sim.time());
     }
     println!("energy: {worst:.1e} of {} J in {} steps", opening.kinetic, sim.steps());
-    // It breathes by a quarter of its size; the rest is of second order in the time step, 5.5e-3 in steps twice as long.
-    assert!(worst < 2.5e-3, "{worst}");
+    // Of second order, in steps of equal length. Where the longest stable step changed from step to step, at twice the cfl, it was 5.5e-3.
+    assert!(worst < 1e-3, "{worst}");
 }
 
 #[test]
