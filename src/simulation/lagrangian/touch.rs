@@ -9,8 +9,10 @@ use std::ops::Range;
 
 /// Change of a velocity in a sweep over the touched nodes, as a share of the largest that contact gave, at which sweeps end.
 const SETTLED: f64 = 1e-4;
-/// Share of the mass of a point that a background node must see of the body for contact to act there; less is round-off of weights.
-const SEEN: f64 = 1e-9;
+/// Share of the mass of a point that a background node must see of the body for contact to act there. What sees less sees points that
+/// its neighbours see, and sweeps settle the slower. No derived number: with 1e-9 peaks of the study's case on three moved grids of
+/// 20 mm differed by 0.2 to 0.3 %, and one step took 977 sweeps.
+const SEEN: f64 = 1e-2;
 /// Least mobility that contact is told, over that of a node of the mesh on its own: of what clamps hold.
 const HELD: f64 = 1e-12;
 
