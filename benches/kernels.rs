@@ -49,6 +49,7 @@ impl Fixture {
             weightless: false,
             between_side_walls: true,
             implicit: false,
+            mesh: None,
         };
         let mut points = Points::default();
         for k in 0..4 * CELLS[0] * CELLS[1] {

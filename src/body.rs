@@ -8,6 +8,7 @@
 
 use crate::constitutive::{AnyLaw, History, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane};
+use crate::mesh::Mesh;
 
 /// Eight material points. Fields are parallel arrays.
 #[derive(Debug, Clone, PartialEq)]
@@ -315,6 +316,9 @@ pub struct Body {
     /// Whether it moves in implicit steps, so that its waves do not limit the time step; for elastic laws, in contact, held by
     /// clamps alone.
     pub implicit: bool,
+    /// Its reference configuration, if it moves by the nodes of that (total-Lagrangian kinematics) and its points go with them; else each
+    /// point keeps its own deformation, and the grid moves it (updated Lagrangian). For neo-Hookean bodies that clamps alone hold.
+    pub mesh: Option<Mesh>,
 }
 
 impl Body {

@@ -104,6 +104,7 @@ fn wave_speed_is_the_root_of_modulus_over_density() {
         weightless: false,
         between_side_walls: true,
         implicit: false,
+        mesh: None,
     };
     // M = K + 4/3 G = 9 kPa, 1000 kg/m3.
     assert!((body.p_wave_speed() - 3.0).abs() < 1e-14);

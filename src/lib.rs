@@ -29,7 +29,8 @@
 //! shape:        lanes space
 //! grid:         space
 //! constitutive: lanes space
-//! body:         constitutive lanes space
+//! mesh:
+//! body:         constitutive lanes mesh space
 //! boundary:     grid space
 //! contact:      lanes space
 //! ledger:       boundary contact space
@@ -38,17 +39,17 @@
 //! layout:       band body grid shape space
 //! transfer:     band body constitutive grid lanes shape space vector
 //! timestep:     body
-//! simulation:   band body boundary constitutive contact grid lanes layout ledger momentum shape space timestep transfer
+//! simulation:   band body boundary constitutive contact grid lanes layout ledger mesh momentum shape space timestep transfer
 //! gauge:        band body boundary constitutive contact grid lanes ledger simulation space
 //! theory:
 //! check:
 //! output:
 //! plot:         check output
 //! case:         boundary constitutive contact shape simulation
-//! run:          body boundary case constitutive contact gauge grid ledger output plot shape simulation space timestep
+//! run:          body boundary case constitutive contact gauge grid ledger mesh output plot shape simulation space timestep
 //! study:        case check output plot run
 //! reference:    case run study
-//! scaffold:     body boundary constitutive grid shape simulation
+//! scaffold:     body boundary constitutive grid mesh shape simulation
 //! ```
 //!
 //! Start with [`simulation::Simulation::step`], which is the algorithm on one screen, or with [`run::run`].
@@ -72,6 +73,7 @@ pub mod grid;
 pub mod lanes;
 pub mod layout;
 pub mod ledger;
+pub mod mesh;
 mod momentum;
 pub mod output;
 pub mod plot;

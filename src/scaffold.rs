@@ -8,6 +8,7 @@ use crate::body::{Body, Particle};
 use crate::boundary::{Boundary, BoundaryContact};
 use crate::constitutive::{AnyLaw, LinearElastic};
 use crate::grid::Lattice;
+use crate::mesh::Mesh;
 use crate::shape::ShapeFunction;
 use crate::simulation::{Numerics, OpenedVolume, PicShare, Scene, Scheme, Simulation, StepFailure};
 
@@ -53,6 +54,11 @@ impl Brick {
             .collect()
     }
 
+    /// The brick as a mesh with edges of elements at the `cuts` (m along its base and its side).
+    pub fn mesh(&self, cuts: [&[f64]; 2]) -> Mesh {
+        Mesh::rectangle(self.corner, self.angle, self.cells.map(|n| n as f64 * self.spacing), self.spacing, cuts)
+    }
+
     /// A body of `law` whose points are those of this brick.
     pub fn body(&self, law: AnyLaw, density: f64) -> Body {
         let s = self.spacing / self.per_cell as f64;
@@ -67,6 +73,7 @@ impl Brick {
             weightless: false,
             between_side_walls: true,
             implicit: false,
+            mesh: None,
         }
     }
 }

@@ -29,14 +29,16 @@ pub struct TimeStep {
 }
 
 /// `cfl` h / (c + |v|) with the P-wave speed c of each body and the largest velocity component of its points; the smallest
-/// over the bodies in explicit steps, or `maximum` if that is shorter.
+/// over the bodies in explicit steps, or `maximum` if that is shorter. Of a body with a mesh the larger of both speeds counts.
 ///
 /// `speeds` is parallel to `bodies`.
 pub fn stable_time_step(bodies: &[Body], speeds: &[f64], spacing: f64, cfl: f64, maximum: f64) -> TimeStep {
     let mut best = TimeStep { dt: maximum, limit: TimeStepLimit::Maximum, wave_speed: 0.0, particle_speed: 0.0 };
     for (index, (body, &speed)) in bodies.iter().zip(speeds).enumerate().filter(|(_, (body, _))| !body.implicit) {
         let c = body.p_wave_speed();
-        let dt = cfl * spacing / (c + speed);
+        // Nothing flows through the elements of a mesh: the speed counts where points would leave a cell.
+        let fastest = if body.mesh.is_some() { c.max(speed) } else { c + speed };
+        let dt = cfl * spacing / fastest;
         if dt < best.dt {
             let limit = if speed > c { TimeStepLimit::Speed(index) } else { TimeStepLimit::Wave(index) };
             best = TimeStep { dt, limit, wave_speed: c, particle_speed: speed };
@@ -62,6 +64,7 @@ mod tests {
             weightless: false,
             between_side_walls: true,
             implicit: false,
+            mesh: None,
         }
     }
 

@@ -52,6 +52,7 @@ pub fn column(points: usize, shape: ShapeFunction, scheme: Scheme) -> Simulation
         weightless: false,
         between_side_walls: true,
         implicit: false,
+        mesh: None,
     };
     let corner = [0.0, 0.0].into();
     Simulation::new(Scene {
@@ -118,6 +119,7 @@ pub fn barrier(spacing: f64, implicit: bool) -> Simulation {
         weightless: false,
         between_side_walls: true,
         implicit,
+        mesh: None,
     };
     let plane =
         |name: &str, normal: [f64; 2], friction| Boundary::plane(name, [0.0; 2].into(), normal.into(), friction);

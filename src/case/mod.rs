@@ -36,8 +36,8 @@ pub use grid::{Domain, Filling, Grid};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
-    Body, Case, Gravity, Integration, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics, Output, Run,
-    Settle, SettleScale, SideWalls, Stages, Tilt,
+    Body, Case, Gravity, Integration, Kinematics, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics,
+    Output, Run, Settle, SettleScale, SideWalls, Stages, Tilt,
 };
 #[cfg(test)]
 pub(crate) use validate::AGENTS;

@@ -120,6 +120,12 @@ pub struct Body {
     /// with an elastic law, on which no boundary but clamps acts. Example: `"implicit"`.
     #[serde(default)]
     pub integration: Integration,
+    /// In which configuration its deformation is reckoned. Default: `"updated_lagrangian"`. Allowed: `"total_lagrangian"` only for a body
+    /// with `law = "neo_hookean"` in explicit steps, in `[[contacts]]` or the only one, with sides that are multiples of the
+    /// distance of its particles, on which nothing acts but clamps that are planes along its edges. Example:
+    /// `"total_lagrangian"`.
+    #[serde(default)]
+    pub kinematics: Kinematics,
     /// The mass the body is meant to have. A check, not an input. Default: none. Allowed: above 0, and density x area x
     /// thickness to 0.1 %. Example: `30`.
     pub mass_kg: Option<f64>,
@@ -136,6 +142,19 @@ pub enum Integration {
     /// Implicitly, together with its contacts: no limit, and more work per step. For stiff elastic bodies in `contacts` that only
     /// clamps hold; bodies that deform much within half a cell of motion need short explicit steps anyhow.
     Implicit,
+}
+
+/// In which configuration the deformation of a body is reckoned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Kinematics {
+    /// In the present one: particles keep their own deformation and cross the cells of the grid. For everything that flows.
+    #[default]
+    UpdatedLagrangian,
+    /// In that of the start: the body has elements of its own, two cells wide, and its particles go with their nodes. For structures: they
+    /// do not tear, they keep their energy, and their stiffness depends neither on the grid nor on the number of particles.
+    TotalLagrangian,
 }
 
 /// The channel's two side walls, whose friction is averaged over its width.

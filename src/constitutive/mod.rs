@@ -11,6 +11,7 @@ mod drucker_prager;
 mod elastic;
 mod logarithm;
 mod neo_hookean;
+mod nominal;
 mod tensor;
 #[cfg(test)]
 mod von_mises;
@@ -20,6 +21,7 @@ pub(crate) use any::with_law;
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::LinearElastic;
 pub use neo_hookean::NeoHookean;
+pub use nominal::{Gradient, Nominal};
 pub use tensor::{Finger, HalfTurn, Increment, Stress, Symmetric};
 #[cfg(test)]
 pub use von_mises::VonMises;

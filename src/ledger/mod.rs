@@ -86,6 +86,20 @@ pub struct Stock {
     pub elastic: f64,
 }
 
+impl Stock {
+    /// Adds what something else holds.
+    pub fn add(&mut self, other: &Stock) {
+        self.mass += other.mass;
+        self.heavy += other.heavy;
+        for d in 0..2 {
+            self.momentum[d] += other.momentum[d];
+        }
+        self.kinetic += other.kinetic;
+        self.gravitational += other.gravitational;
+        self.elastic += other.elastic;
+    }
+}
+
 /// Energy by mechanism since the ledger was opened, in J. Dissipation is positive.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EnergyBalance {

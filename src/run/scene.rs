@@ -6,6 +6,7 @@ use crate::case::{self, Case};
 use crate::constitutive::{AnyLaw, DruckerPrager, LinearElastic, NeoHookean};
 use crate::contact::rule::{ContactRule, GapRule, NormalRule};
 use crate::grid::Lattice;
+use crate::mesh::Mesh;
 use crate::simulation::{Numerics, Scene};
 use nalgebra::Vector2;
 
@@ -58,8 +59,24 @@ fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
         weightless: b.weightless,
         between_side_walls: case.side_walls.act_on(&b.name),
         implicit: b.integration == case::Integration::Implicit,
+        mesh: (b.kinematics == case::Kinematics::TotalLagrangian).then(|| mesh(case, b)),
     };
     (body, particles)
+}
+
+/// The reference configuration of a body, with edges of elements at its clamps.
+fn mesh(case: &Case, b: &case::Body) -> Mesh {
+    let corner = [b.x_m[0], b.y_m[0]];
+    let axes = [0.0, 90.0].map(|more| direction(b.rotation_deg + more));
+    let mut cuts = [Vec::new(), Vec::new()];
+    for boundary in case.boundaries.iter().filter(|o| o.acts_on(&b.name) && o.contact == case::ContactKind::Bonded) {
+        let Some(case::Shape::Plane { point_m, normal_deg }) = boundary.shape(&case.grid) else { continue };
+        let n = direction(normal_deg);
+        // Planes lie along one of the edges; the other axis crosses them.
+        let d = usize::from(axes[1].dot(&n).abs() > axes[0].dot(&n).abs());
+        cuts[d].push((Vector2::from(point_m) - Vector2::from(corner)).dot(&axes[d]));
+    }
+    Mesh::rectangle(corner, b.rotation_deg.to_radians(), b.size_m(), case.grid.spacing_m, [&cuts[0], &cuts[1]])
 }
 
 /// A number of \[0, 1\) from a seed and a counter: the same on every machine (SplitMix64; Steele, Lea and Flood 2014).

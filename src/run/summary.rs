@@ -80,7 +80,8 @@ pub struct Stepping {
     pub time_step_max_s: f64,
     /// What limited the shortest time step.
     pub time_step_limited_by: String,
-    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps and contact agreed.
+    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps or total-Lagrangian kinematics and contact
+    /// agreed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_sweeps_max: Option<usize>,
 }

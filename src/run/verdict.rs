@@ -221,7 +221,7 @@ fn barriers(summary: &Summary, experiment: &Experiment, at_rest: bool, add: &mut
     if let Some([most, allowed]) = experiment.simulation().contact_sweeps()
         && most >= allowed
     {
-        let text = format!("contact with a body in implicit steps was not settled after {allowed} sweeps of a step");
+        let text = format!("contact with a structure was not settled after {allowed} sweeps of a step");
         add(Kind::Sweeps, text);
     }
     if let Some(s) = &summary.structure {

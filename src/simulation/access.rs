@@ -1,6 +1,7 @@
 //! Reading a simulation, and steering it between steps.
 
 use super::field::VelocityField;
+use super::structure::Structure;
 use super::sweep::{self, On};
 use super::{AccelerationField, ContactPoint, PicShare, Simulation, potential};
 use crate::band::{Band, Workspace};
@@ -180,8 +181,8 @@ impl Simulation {
     /// with the fewest. What a step computes does not depend on it.
     pub fn parts(&self, threads: usize) -> usize {
         let stages = self.numerics.scheme.stages();
-        let implicit = |field: usize| self.implicit.iter().any(|b| b.field == field);
-        let swept = self.fields.iter().enumerate().filter(|(k, _)| !implicit(*k));
+        let apart = |field: usize| self.structures.iter().any(|b| b.field() == field);
+        let swept = self.fields.iter().enumerate().filter(|(k, _)| !apart(*k));
         let bands = swept.map(|(_, f)| f.bands.len()).sum();
         if self.in_one_sweep() {
             return sweep::parts(stages, bands, threads);
@@ -221,10 +222,10 @@ impl Simulation {
         self.coupling.points()
     }
 
-    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps and contact agreed, and the most
-    /// that are allowed; `None` without such bodies.
+    /// The most sweeps over the nodes in contact that a step needed until bodies in implicit steps or with a mesh and contact agreed, and
+    /// the most that are allowed; `None` without such bodies.
     pub fn contact_sweeps(&self) -> Option<[usize; 2]> {
-        self.implicit.iter().map(|b| b.passes).max().map(|most| [most, super::implicit::PASSES])
+        self.structures.iter().map(Structure::passes).max()
     }
 
     /// What boundaries did to single nodes in the last step, in the order of the nodes.
@@ -268,7 +269,8 @@ impl Simulation {
     /// What some bodies, chosen by index, hold now.
     pub fn stock_of(&self, chosen: impl Fn(usize) -> bool) -> Stock {
         let mut s = Stock::default();
-        self.particles().filter(|(body, _)| chosen(*body)).for_each(|(body, p)| {
+        let by_points = |body: &usize| self.bodies[*body].mesh.is_none() && chosen(*body);
+        self.particles().filter(|(body, _)| by_points(body)).for_each(|(body, p)| {
             let body = &self.bodies[body];
             let m = body.point_mass;
             let heavy = if body.weightless { 0.0 } else { m };
@@ -279,7 +281,21 @@ impl Simulation {
             s.gravitational += heavy * potential(self.forces.gravity, p.x);
             s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         });
+        for (_, own) in self.stocks_by_nodes().filter(|(body, _)| chosen(*body)) {
+            s.add(&own);
+        }
         s
+    }
+
+    /// What each body with a mesh holds now, by the nodes of that.
+    fn stocks_by_nodes(&self) -> impl Iterator<Item = (usize, Stock)> {
+        let own = self.structures.iter().filter_map(|b| Some((self.fields[b.field()].members[0], b.lagrangian()?)));
+        own.map(|(body, b)| (body, b.stock(self.forces.gravity, !self.bodies[body].weightless, self.time_step.dt)))
+    }
+
+    /// Momentum of a body that moves by the nodes of its mesh, N s: theirs, which the momenta of its points come near to.
+    pub fn nodal_momentum_of(&self, body: usize) -> Option<[f64; 2]> {
+        self.stocks_by_nodes().find(|(b, _)| *b == body).map(|(_, stock)| stock.momentum)
     }
 
     /// Energy by mechanism since the ledger was opened, with gravitational energy counted from the level of `datum` (m).

@@ -60,7 +60,9 @@ impl VelocityField {
         // Bodies in implicit steps know of boundaries what acts at their nodes.
         let implicit = self.bodies.iter().any(|b| b.implicit);
         let contact = if implicit { BoundaryContact::Nodes } else { contact };
-        search::find_holds(boundaries, &self.members, &self.grid, contact, &mut self.found);
+        // Clamps hold the nodes of a mesh, and nothing else acts on a body with one but other bodies.
+        let acting = if self.bodies.iter().any(|b| b.mesh.is_some()) { &[] } else { boundaries };
+        search::find_holds(acting, &self.members, &self.grid, contact, &mut self.found);
         momentum::distribute_holds(&self.found.holds, boundaries.len(), &mut self.bands);
     }
 

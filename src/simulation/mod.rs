@@ -17,9 +17,11 @@ use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
 use coupling::Coupling;
 use failure::CRUSHED;
 use field::VelocityField;
-use implicit::{ImplicitBody, Turn};
+use implicit::Turn;
+use lagrangian::Acting;
 use occupied::Occupied;
 use stages::Stage;
+use structure::Structure;
 use surface::Surface;
 use sweep::{On, Pool};
 
@@ -28,10 +30,12 @@ mod coupling;
 mod failure;
 mod field;
 mod implicit;
+mod lagrangian;
 mod occupied;
 mod scene;
 mod slip;
 mod stages;
+mod structure;
 mod surface;
 mod sweep;
 
@@ -68,7 +72,7 @@ pub struct Simulation {
     occupied: Occupied,
     /// Whether a field was sorted anew, or its boundaries have changed, since the open nodes were found.
     stale: bool,
-    implicit: Vec<ImplicitBody>,
+    structures: Vec<Structure>,
     speeds: Vec<f64>,
 
     time: f64,
@@ -88,8 +92,8 @@ impl Simulation {
             let own = body.point_mass * particles.len() as f64;
             mass += own;
             heavy += if body.weightless { 0.0 } else { own };
-            // Bodies in contact have a velocity field each, all others share one.
-            let alone = scene.contacts.iter().any(|c| c.bodies.contains(&index));
+            // Bodies in contact and those with a mesh have a velocity field each, all others share one.
+            let alone = body.mesh.is_some() || scene.contacts.iter().any(|c| c.bodies.contains(&index));
             let field = match common {
                 Some(field) if !alone => field,
                 _ => {
@@ -121,7 +125,7 @@ impl Simulation {
             surface: Surface::default(),
             occupied: Occupied::default(),
             stale: true,
-            implicit: implicit::bodies(&fields),
+            structures: structure::of(&fields, &boundaries),
             bodies,
             boundaries,
             bands: vec![Vec::new(); fields.len()],
@@ -166,13 +170,13 @@ impl Simulation {
         self.close_step(dt)
     }
 
-    /// Does stages of a step on all fields but those of bodies in implicit steps, which take their `turn` meanwhile.
+    /// Does stages of a step on all fields but those of structures, which take their `turn` meanwhile.
     fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64, turn: Option<Turn>) {
         // The bands leave their fields, which all threads read, for as long as they are worked on.
         let (mut bands, mut pools) = (std::mem::take(&mut self.bands), std::mem::take(&mut self.pools));
         self.swap_bands(&mut bands);
-        let mut implicit = std::mem::take(&mut self.implicit);
-        implicit.iter_mut().for_each(|b| std::mem::swap(&mut b.own, &mut self.fields[b.field]));
+        let mut structures = std::mem::take(&mut self.structures);
+        structures.iter_mut().for_each(|b| b.swap(&mut self.fields));
         let step = self.begin(dt);
         let lent = self.in_one_sweep().then_some(&mut pools);
         let sweep = || {
@@ -180,23 +184,29 @@ impl Simulation {
                 step.run(stage, &self.fields[k], before, band);
             });
         };
-        match turn.filter(|_| !implicit.is_empty()) {
+        match turn.filter(|_| !structures.is_empty()) {
             None => sweep(),
             Some(turn) => {
-                sweep::beside(sweep, || {
-                    implicit.iter_mut().for_each(|b| b.take_turn(turn, &self.boundaries, self.forces, dt))
-                });
+                let acting = Acting {
+                    boundaries: &self.boundaries,
+                    forces: self.forces,
+                    field: self.field.as_ref(),
+                    shape: self.numerics.shape,
+                    time: self.time,
+                    dt,
+                };
+                sweep::beside(sweep, || structures.iter_mut().for_each(|b| b.take_turn(turn, &acting)));
             }
         }
-        implicit.iter_mut().for_each(|b| std::mem::swap(&mut b.own, &mut self.fields[b.field]));
-        self.implicit = implicit;
+        structures.iter_mut().for_each(|b| b.swap(&mut self.fields));
+        self.structures = structures;
         self.swap_bands(&mut bands);
         (self.bands, self.pools) = (bands, pools);
     }
 
     fn swap_bands(&mut self, bands: &mut [Vec<Band>]) {
         for (k, (field, bands)) in self.fields.iter_mut().zip(bands).enumerate() {
-            if !self.implicit.iter().any(|b| b.field == k) {
+            if !self.structures.iter().any(|b| b.field() == k) {
                 std::mem::swap(&mut field.bands, bands);
             }
         }
@@ -208,12 +218,12 @@ impl Simulation {
         for part in stages.split_inclusive(|(on, _)| *on == On::Nodes) {
             let last = part.last().map(|(_, stage)| *stage);
             self.sweep_all(part, dt, if last == Some(Stage::Momentum) { Some(Turn::Predict) } else { after.take() });
-            let Self { fields, coupling, surface, boundaries, numerics, implicit, .. } = self;
+            let Self { fields, coupling, surface, boundaries, numerics, structures, .. } = self;
             match last {
                 Some(Stage::Momentum) => {
                     sweep::alone(|| {
                         if !coupling.is_empty() {
-                            coupling.exchange(fields, boundaries, numerics.shape, dt, implicit);
+                            coupling.exchange(fields, boundaries, numerics.shape, dt, structures);
                         }
                         surface.solve(fields, boundaries, numerics.shape, dt);
                     });
@@ -230,7 +240,7 @@ impl Simulation {
 
     /// Whether a step needs no place where the bands wait for each other.
     fn in_one_sweep(&self) -> bool {
-        self.coupling.is_empty() && self.surface.is_empty()
+        self.coupling.is_empty() && self.surface.is_empty() && self.structures.is_empty()
     }
 
     /// Finds the nodes that the momentum balance leaves open, in a new layout of the fields.
@@ -246,16 +256,22 @@ impl Simulation {
         coupling.find(fields);
         surface.find(fields, boundaries, lattice.spacing);
         if !self.in_one_sweep() {
-            let Self { fields, implicit, .. } = self;
+            let Self { fields, structures, .. } = self;
             fields.iter_mut().flat_map(|f| &mut f.bands).for_each(Band::make_room);
-            implicit.iter_mut().for_each(|b| b.follow(&fields[b.field]));
+            structures.iter_mut().for_each(|b| b.follow(&fields[b.field()]));
         }
     }
 
     fn next_time_step(&self) -> TimeStep {
         let n = &self.numerics;
-        let limit = stable_time_step(&self.bodies, &self.speeds, self.lattice.spacing, n.cfl, n.max_time_step);
-        if self.implicit.is_empty() || limit.limit == TimeStepLimit::Maximum {
+        let mut limit = stable_time_step(&self.bodies, &self.speeds, self.lattice.spacing, n.cfl, n.max_time_step);
+        for body in &self.structures {
+            let Some(longest) = body.lagrangian().map(|b| b.longest_step()).filter(|l| *l < limit.dt) else { continue };
+            let number = self.fields[body.field()].members[0];
+            let (wave_speed, particle_speed) = (self.bodies[number].p_wave_speed(), self.speeds[number]);
+            limit = TimeStep { dt: longest, limit: TimeStepLimit::Wave(number), wave_speed, particle_speed };
+        }
+        if !self.structures.iter().any(Structure::is_implicit) || limit.limit == TimeStepLimit::Maximum {
             return limit;
         }
         // A step of another length costs a body in implicit steps a new factorisation.
@@ -327,18 +343,32 @@ impl Simulation {
     }
 
     fn sort(&mut self, field: usize) {
-        let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain: self.domain };
+        let domain = self.domain_of(field);
+        let rules = SortRules { lattice: self.lattice, shape: self.numerics.shape, bodies: &[], domain };
         self.fields[field].sort(&rules, &self.boundaries, self.numerics.boundary_contact);
         if self.numerics.opened_volume == OpenedVolume::Occupied {
             self.occupied.bound(&mut self.fields, field, &self.boundaries, self.thickness);
         }
         self.stale = true;
-        if let Some(body) = self.implicit.iter_mut().find(|b| b.field == field) {
-            body.rebuild(field, &self.fields[field], self.numerics.shape);
+        if let Some(body) = self.structures.iter_mut().find(|b| b.field() == field) {
+            body.rebuild(&self.fields[field], self.numerics.shape);
         }
         for i in 0..self.fields[field].departed.len() {
             self.book_departure(self.fields[field].departed[i]);
         }
+    }
+
+    /// What the points of a field may not leave. Those of a body with a mesh go with it wherever it moves.
+    fn domain_of(&self, field: usize) -> [[f64; 2]; 2] {
+        let mut domain = self.domain;
+        if self.fields[field].bodies.iter().any(|b| b.mesh.is_some()) {
+            for (_, p) in self.fields[field].particles() {
+                for ([low, high], x) in domain.iter_mut().zip(p.x) {
+                    (*low, *high) = (low.min(x), high.max(x));
+                }
+            }
+        }
+        domain
     }
 
     /// Finds what holds each node.

@@ -4,6 +4,7 @@ use crate::scene::{Brick, Material, THICKNESS, points_by_number, run_until, scen
 use crate::{Fault, RungFailure};
 use checkdam::body::Particle;
 use checkdam::boundary::{Boundary, Friction};
+use checkdam::constitutive::{AnyLaw, NeoHookean};
 use checkdam::shape::ShapeFunction;
 use checkdam::simulation::{AccelerationField, PicShare, Simulation};
 use checkdam::theory::cantilever::Cantilever;
@@ -29,6 +30,10 @@ pub struct Beam {
     pub cells: usize,
     /// What it is made of.
     pub material: Material,
+    /// Points per cell and direction.
+    pub per_cell: usize,
+    /// Whether it moves by its mesh (total-Lagrangian kinematics, neo-Hookean), and not by the grid.
+    pub mesh: bool,
 }
 
 impl Beam {
@@ -50,7 +55,12 @@ impl Beam {
 
     /// Height of the topmost row of points, which carries the load at the tip, m.
     pub fn tip(&self) -> f64 {
-        self.exact().length - 0.25 * self.spacing()
+        self.exact().length - 0.5 * self.distance()
+    }
+
+    /// Distance of the points, m.
+    fn distance(&self) -> f64 {
+        self.spacing() / self.per_cell as f64
     }
 
     /// Points at rest, upright, the foot two cells deep in the clamp.
@@ -61,14 +71,22 @@ impl Beam {
     fn brick(&self) -> Brick {
         let h = self.spacing();
         let cells = [self.cells, self.cells * self.slenderness + EMBEDDED];
-        Brick::new([0.0, -(EMBEDDED as f64) * h], cells, h)
+        Brick { per_cell: self.per_cell, ..Brick::new([0.0, -(EMBEDDED as f64) * h], cells, h) }
     }
 
     /// The simulation from given points, with a time step of `courant` h/c and a share of PIC.
     pub fn simulation(&self, points: Vec<Particle>, courant: f64, pic: f64, fault: &Fault) -> Simulation {
         let clamp = Boundary::plane("clamp", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Bonded);
         let density = self.material.density * fault.density;
-        let mut scene = scene(&self.brick(), self.material.law(fault), density, points, vec![clamp]);
+        let Material { elastic, .. } = self.material;
+        let law = match self.mesh {
+            true => AnyLaw::NeoHookean(NeoHookean::new(elastic.young * fault.modulus, elastic.poisson)),
+            false => self.material.law(fault),
+        };
+        let mut scene = scene(&self.brick(), law, density, points, vec![clamp]);
+        if self.mesh {
+            scene.bodies[0].0.mesh = Some(self.brick().mesh([&[], &[EMBEDDED as f64 * self.spacing()]]));
+        }
         scene.numerics.shape = self.shape;
         scene.numerics.pic = PicShare::Fraction(pic);
         scene.numerics.cfl = 0.9;
@@ -105,14 +123,15 @@ pub fn settle(beam: &Beam, load: Load, fault: &Fault) -> Result<Rest, RungFailur
     let top = beam.tip() - 0.1 * h;
     let row = heights.iter().filter(|&&y| y > top).count() as f64;
     // Loads are forces: they do not follow a wrong density.
-    let mass = beam.material.density * fault.density * 0.25 * h * h * THICKNESS;
+    let area = beam.distance() * beam.distance();
+    let mass = beam.material.density * fault.density * area * THICKNESS;
     let mut sim = beam.simulation(start.clone(), 0.7, SETTLING_PIC, fault);
     let places = Arc::clone(&heights);
     sim.set_field(Some(AccelerationField(Arc::new(move |p, _| {
         let force = match load {
             Load::Tip(force) if places[p.id as usize] > top => force / row,
             Load::Tip(_) => 0.0,
-            Load::Spread(q) => q * 0.25 * h * h / DEPTH,
+            Load::Spread(q) => q * area / DEPTH,
         };
         [force / mass, 0.0]
     }))));

@@ -10,7 +10,7 @@ use checkdam::theory::cantilever::first_mode;
 use std::f64::consts::PI;
 
 /// Period (s) as the mean of two, and energy after 2.5 periods over that at the start.
-fn vibrate(beam: &Beam, fault: &Fault) -> Result<[f64; 2], RungFailure> {
+pub(super) fn vibrate(beam: &Beam, fault: &Fault) -> Result<[f64; 2], RungFailure> {
     let e = beam.exact();
     let speed = 1e-3 * DEPTH * e.frequency();
     let mode = |y: f64| first_mode(y / e.length);
@@ -42,7 +42,7 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
             if *fault != Fault::NONE && (cells < 8 || shape != ShapeFunction::Ugimp) {
                 continue;
             }
-            let beam = Beam { shape, slenderness: 4, cells, material: MATERIAL };
+            let beam = Beam { shape, slenderness: 4, cells, material: MATERIAL, per_cell: 2, mesh: false };
             let exact = beam.exact().frequency() / (2.0 * PI);
             let [period, energy] = vibrate(&beam, fault)?;
             rows.push(vec![index as f64, cells as f64, 1.0 / period, exact, energy]);

@@ -57,6 +57,7 @@ impl Bench {
             weightless: false,
             between_side_walls: true,
             implicit: false,
+            mesh: None,
         };
         let mut random = Lcg::new(7 + per_cell as u64);
         let mut points = Points::default();

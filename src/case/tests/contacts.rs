@@ -220,6 +220,34 @@ fn implicit_steps_are_for_clamped_elastic_bodies_in_contact() {
 }
 
 #[test]
+fn a_mesh_is_for_neo_hookean_bodies_that_clamps_alone_hold() {
+    let apart = |text: &str| {
+        text.replace("kind = \"wall\"", "kind = \"wall\"\nbodies = [\"sand\"]")
+            .replace("kind = \"gate\"", "kind = \"gate\"\nbodies = [\"sand\"]")
+    };
+    let meshed = |text: String| {
+        text.replacen("material = \"plastic\"", "material = \"plastic\"\nkinematics = \"total_lagrangian\"", 1)
+    };
+    let good = apart(&meshed(with(CONTACT)));
+    let loaded = parse(&good, "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(loaded.case.bodies[1].kinematics, crate::case::Kinematics::TotalLagrangian);
+    let clamp = |angle: u32| format!("normal_deg = {angle}\ncontact = \"bonded\"");
+    for (text, part) in [
+        (meshed(with(CONTACT)), "no boundary but clamps acts on"),
+        (apart(&meshed(with(""))), "in [[contacts]], or the only one"),
+        (good.replace("\nkinematics", "\nintegration = \"implicit\"\nkinematics"), "only in explicit steps"),
+        (good.replace("law = \"neo_hookean\"", "law = \"linear_elastic\""), "law = \"neo_hookean\""),
+        (good.replace(&clamp(90), &clamp(80)), "planes along an edge"),
+        (good.replacen("friction = 0.0 ", "friction = 0.3 ", 1), "side walls do not touch"),
+    ] {
+        let report = report_of(&text);
+        assert!(report.contains(part) && report.contains("bodies[1].kinematics = \"total_lagrangian\""), "{report}");
+    }
+    let report = report_of(&good.replace("x_m = [1.4, 1.5]", "x_m = [1.4, 1.502]"));
+    assert!(report.contains("distances of its particles") && report.contains("use x_m = [1.4, 1.5]"), "{report}");
+}
+
+#[test]
 fn no_body_may_be_forgotten() {
     let third = BARRIER
         .split("[[boundaries]]")

@@ -40,6 +40,7 @@ impl Checker<'_> {
             }
             self.mass(&at, body);
             self.integration(&at, body);
+            self.kinematics(&at, body);
             if body.weightless && !self.case.contacts.iter().any(|c| c.bodies.contains(&body.name)) {
                 let allowed = "true only for a body in [[contacts]]: others share their motion on the grid";
                 let fix = "remove the line, or add [[contacts]] with this body";

@@ -6,6 +6,7 @@ mod contacts;
 mod cost;
 mod doubts;
 mod gauges;
+mod kinematics;
 mod materials;
 mod sections;
 mod sizes;

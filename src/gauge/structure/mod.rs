@@ -201,6 +201,9 @@ impl StructureGauge {
 
     /// Momentum of the body, N s.
     fn momentum_now(&self, simulation: &Simulation) -> [f64; 2] {
+        if let Some(momentum) = simulation.nodal_momentum_of(self.body) {
+            return momentum;
+        }
         let mass = simulation.bodies()[self.body].point_mass;
         let mut sum = [0.0; 2];
         for place in self.points.iter().flatten() {

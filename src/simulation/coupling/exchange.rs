@@ -11,47 +11,46 @@ use crate::contact::separation::area;
 use crate::contact::side::Side;
 use crate::momentum;
 use crate::shape::ShapeFunction;
-use crate::simulation::implicit::{ImplicitBody, PASSES, SETTLED};
+use crate::simulation::implicit::PASSES;
+use crate::simulation::structure::Structure;
 use crate::space::{plus, scaled};
 
 impl Coupling {
     /// Closes the momentum balance of all shared nodes: finds where bodies touch, and the impulses of contact and boundaries.
     ///
-    /// Bodies in implicit steps answer an impulse at one node at all nodes: with them contact is repeated until it no longer
-    /// changes what they do, and only the last pass counts.
+    /// Structures answer an impulse at one node at other nodes: with them contact is repeated until it no longer changes what they do, and
+    /// only the last pass counts.
     pub fn exchange(
         &mut self,
         fields: &mut [VelocityField],
         boundaries: &[Boundary],
         shape: ShapeFunction,
         dt: f64,
-        implicit: &mut [ImplicitBody],
+        structures: &mut [Structure],
     ) {
         self.find_touches(fields, shape, dt);
-        if !implicit.is_empty() {
-            self.approach(fields, boundaries, implicit);
+        if !structures.is_empty() {
+            self.approach(fields, boundaries, structures);
         }
-        self.pass(fields, boundaries, implicit, true);
+        self.pass(fields, boundaries, structures, true);
     }
 
-    /// Passes without consequences, until bodies in implicit steps and contact agree.
-    fn approach(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], implicit: &mut [ImplicitBody]) {
+    /// Passes without consequences, until structures and contact agree.
+    fn approach(&mut self, fields: &mut [VelocityField], boundaries: &[Boundary], structures: &mut [Structure]) {
         for p in &self.pending {
             for side in &self.sides[self.nodes[p.node as usize].sides.clone()] {
                 let here = fields[side.field].bands[side.band].open[side.index].mass > 0.0;
-                if let Some(body) = implicit.iter_mut().find(|b| here && b.field == side.field) {
+                if let Some(body) = structures.iter_mut().find(|b| here && b.field() == side.field) {
                     body.touch(body.slot(side.band, side.index));
                 }
             }
         }
-        implicit.iter_mut().for_each(ImplicitBody::weigh);
+        structures.iter_mut().for_each(Structure::weigh);
         for pass in 0..PASSES {
-            self.pass(fields, boundaries, implicit, false);
+            self.pass(fields, boundaries, structures, false);
             let mut settled = true;
-            for body in implicit.iter_mut() {
-                let [change, largest] = body.settle();
-                settled &= change <= SETTLED * largest;
-                body.passes = body.passes.max(pass + 1);
+            for body in structures.iter_mut() {
+                settled &= body.settle(pass + 1);
             }
             if settled {
                 break;
@@ -64,7 +63,7 @@ impl Coupling {
         &mut self,
         fields: &mut [VelocityField],
         boundaries: &[Boundary],
-        implicit: &mut [ImplicitBody],
+        structures: &mut [Structure],
         last: bool,
     ) {
         self.touches.clear();
@@ -77,7 +76,7 @@ impl Coupling {
                 next += 1;
             }
             if last || next > first {
-                self.solve(n, first..next, fields, boundaries, implicit, last);
+                self.solve(n, first..next, fields, boundaries, structures, last);
             }
         }
     }
@@ -102,15 +101,15 @@ impl Coupling {
         pending: std::ops::Range<usize>,
         fields: &mut [VelocityField],
         boundaries: &[Boundary],
-        implicit: &mut [ImplicitBody],
+        structures: &mut [Structure],
         last: bool,
     ) {
         let shared = &self.nodes[n];
         let own = &self.sides[shared.sides.clone()];
         if !pending.is_empty() {
-            for body in implicit.iter() {
+            for body in structures.iter() {
                 let slot = |at: &SharedSide| body.slot(at.band, at.index);
-                let touched = own.iter().filter(|at| at.field == body.field && body.is_touched(slot(at)));
+                let touched = own.iter().filter(|at| at.field == body.field() && body.is_touched(slot(at)));
                 touched.for_each(|at| body.offer(slot(at), &mut fields[at.field]));
             }
         }
@@ -152,8 +151,9 @@ impl Coupling {
             } else {
                 node::solve(sides, touches);
             }
-            for body in implicit.iter_mut() {
-                let touched = |at: &SharedSide| at.field == body.field && body.is_touched(body.slot(at.band, at.index));
+            for body in structures.iter_mut() {
+                let touched =
+                    |at: &SharedSide| at.field == body.field() && body.is_touched(body.slot(at.band, at.index));
                 let Some(k) = own.iter().position(touched) else { continue };
                 let mut impulse = [0.0; 2];
                 for touch in touches.iter().filter(|t| t.sides.contains(&k)) {
@@ -180,8 +180,10 @@ impl Coupling {
             }
             let spacing = fields[own[0].field].grid.spacing;
             let volume = |k: usize| {
-                let body = &fields[own[k].field].bodies[0];
-                sides[k].mass * body.point_volume / body.point_mass
+                let (at, body) = (&own[k], &fields[own[k].field].bodies[0]);
+                let structure = structures.iter().find(|b| b.field() == at.field);
+                let mass = structure.and_then(|b| b.mass_at(b.slot(at.band, at.index))).unwrap_or(sides[k].mass);
+                mass * body.point_volume / body.point_mass
             };
             for (p, touch) in self.pending[pending].iter().zip(touches.iter()) {
                 if touch.state() != State::Apart {
@@ -204,7 +206,7 @@ impl Coupling {
                 clamped: [false; MAX_SIDES],
             };
             for (k, side) in sides.iter().enumerate() {
-                let moved_later = implicit.iter().any(|b| b.field == own[k].field);
+                let moved_later = structures.iter().any(|b| b.field() == own[k].field);
                 (solved.masses[k], solved.clamped[k]) = (side.mass, side.fixed || moved_later);
             }
             self.solved.push(solved);

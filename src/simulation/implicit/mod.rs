@@ -142,7 +142,10 @@ pub(super) enum Turn {
 
 /// The bodies in implicit steps among those that have a velocity field of their own.
 pub(super) fn bodies(fields: &[VelocityField]) -> Vec<ImplicitBody> {
-    let alone = fields.iter().enumerate().filter(|(_, f)| f.bodies.len() == 1 && f.bodies[0].implicit);
+    let alone = fields
+        .iter()
+        .enumerate()
+        .filter(|(_, f)| f.bodies.len() == 1 && f.bodies[0].implicit && f.bodies[0].mesh.is_none());
     alone.map(|(field, _)| ImplicitBody { field, ..ImplicitBody::default() }).collect()
 }
 

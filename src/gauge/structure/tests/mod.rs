@@ -2,6 +2,7 @@ mod still;
 
 use super::*;
 use crate::boundary::Friction;
+use crate::constitutive::{AnyLaw, NeoHookean};
 use crate::contact::rule::ContactRule;
 use crate::scaffold::{Brick, THICKNESS, elastic, run_until, scene};
 use crate::simulation::PicShare;
@@ -10,7 +11,12 @@ const H: f64 = 0.02;
 
 /// A wall of 0.1 m by 0.3 m above its clamp, and a block that runs against it.
 fn wall_and_block(young: f64, weightless: bool) -> (Simulation, StructureGauge) {
-    let (soft, stiff) = (elastic(1e6, 0.3), elastic(young, 0.2));
+    wall_of(elastic(young, 0.2), weightless, false)
+}
+
+/// The same by its law; it may move by a mesh.
+fn wall_of(stiff: AnyLaw, weightless: bool, mesh: bool) -> (Simulation, StructureGauge) {
+    let soft = elastic(1e6, 0.3);
     let wall = Brick::new([0.4, -2.0 * H], [5, 17], H);
     let block = Brick::new([0.2, 0.0], [6, 6], H);
     // The gauge counts along the height first.
@@ -23,6 +29,7 @@ fn wall_and_block(young: f64, weightless: bool) -> (Simulation, StructureGauge) 
     let bed = plane("bed", [0.0, 0.0], Friction::Coulomb(0.3)).only_for(&[1]);
     let mut scene = scene(&wall, stiff, 2400.0, points, vec![clamp, bed]);
     scene.bodies[0].0.weightless = weightless;
+    scene.bodies[0].0.mesh = mesh.then(|| wall.mesh([&[], &[2.0 * H]]));
     let mut moving = block.points();
     moving.iter_mut().for_each(|p| p.v = [2.0, 0.0]);
     scene.bodies.push((block.body(soft, 1500.0), moving));
@@ -37,8 +44,7 @@ fn wall_and_block(young: f64, weightless: bool) -> (Simulation, StructureGauge) 
 
 /// Largest disagreement of contact and weight with clamp and inertia at any step, over the sum of their magnitudes, when the
 /// contact force that is read is off by a factor; and the largest contact force.
-fn largest_imbalance(young: f64, weightless: bool, factor: f64) -> (f64, f64) {
-    let (mut sim, mut gauge) = wall_and_block(young, weightless);
+fn largest_imbalance((mut sim, mut gauge): (Simulation, StructureGauge), factor: f64) -> (f64, f64) {
     let (mut worst, mut force) = (0.0f64, 0.0f64);
     while sim.time() < 0.1 {
         sim.step().expect("a step");
@@ -56,13 +62,28 @@ fn largest_imbalance(young: f64, weightless: bool, factor: f64) -> (f64, f64) {
 #[test]
 fn contact_clamp_and_inertia_agree_at_every_step() {
     for (young, weightless) in [(5e5, true), (5e5, false), (2e7, true)] {
-        let (worst, force) = largest_imbalance(young, weightless, 1.0);
+        let (worst, force) = largest_imbalance(wall_and_block(young, weightless), 1.0);
         println!("{young:e} Pa, weightless {weightless}: {worst:.1e} of up to {force:.0} N");
         assert!(force > 100.0, "the block strikes the wall: {force}");
         assert!(worst < 1e-11, "{young} {weightless}: {worst:e}");
         // A contact force that is off by 2 % is seen.
-        let (wrong, _) = largest_imbalance(young, weightless, 1.02);
+        let (wrong, _) = largest_imbalance(wall_and_block(young, weightless), 1.02);
         assert!(wrong > 1e-3, "{young} {weightless}: {wrong:e}");
+    }
+}
+
+#[test]
+fn a_wall_that_moves_by_a_mesh_balances_by_its_nodes_and_has_no_gaps() {
+    for weightless in [true, false] {
+        let wall = || wall_of(AnyLaw::NeoHookean(NeoHookean::new(5e5, 0.2)), weightless, true);
+        let (worst, force) = largest_imbalance(wall(), 1.0);
+        assert!(force > 100.0 && worst < 1e-11, "{force} {worst:e}");
+        let (wrong, _) = largest_imbalance(wall(), 1.02);
+        assert!(wrong > 1e-3, "{wrong:e}");
+        let (mut sim, mut gauge) = wall();
+        run_until(&mut sim, 0.1).expect("it runs");
+        let bend = gauge.sample(&sim).bend;
+        assert!(bend.tip > 0.01 && bend.gap < 0.01, "{bend:?}");
     }
 }
 

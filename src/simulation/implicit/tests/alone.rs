@@ -30,7 +30,7 @@ fn mass_velocity_force_and_stiffness_are_sums_over_points() {
     ];
     for (shape, law) in SHAPES.into_iter().zip(laws) {
         let sim = wall(shape, law);
-        let body = &sim.implicit[0];
+        let body = sim.implicit_body();
         let reference = Reference::new(&sim, body);
         let n = 2 * reference.x.len();
         assert!(apart(&body.mass, &reference.mass()) < ROUND);
@@ -61,7 +61,7 @@ fn nodes_are_numbered_along_the_body() {
             let mut scene = scene(&brick, AnyLaw::LinearElastic(elastic()), 1.0, brick.points(), vec![]);
             scene.bodies[0].0.implicit = true;
             let sim = Simulation::new(scene);
-            let body = &sim.implicit[0];
+            let body = sim.implicit_body();
             let spread = |p: &Point| p.nodes.iter().max().unwrap() - p.nodes.iter().min().unwrap();
             let widest = body.points.iter().map(spread).max().unwrap();
             assert!(widest <= 14, "{corner:?} {angle}: {widest} of {}", body.mass.len());
@@ -87,7 +87,7 @@ impl Alone {
         // Its points flow, in a time that matters; its nodes are moved as if it were elastic.
         let law = VonMises { elastic: elastic(), strength: 200.0, hardening: 1e5, viscosity: 2e3 };
         let sim = wall(ShapeFunction::Ugimp, AnyLaw::VonMises(law));
-        let (mut body, mut field) = (sim.implicit[0].clone(), sim.fields[0].clone());
+        let (mut body, mut field) = (sim.implicit_body().clone(), sim.fields[0].clone());
         let reference = Reference::new(&sim, &body);
         field.bands.iter_mut().for_each(crate::band::Band::make_room);
         if shared {

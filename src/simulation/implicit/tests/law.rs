@@ -30,7 +30,7 @@ fn with_rider(scene: &mut Scene, friction: f64, turned: bool) {
 /// Velocity of the block over that of the wall at a node: after the momentum balance, and as strains see it, m/s.
 fn relative(sim: &Simulation, at: &ContactPoint) -> [[f64; 2]; 2] {
     let place = at.x.map(|x| (x / H).round() as i64);
-    let body = &sim.implicit[0];
+    let body = sim.implicit_body();
     let (wall, block) = (&sim.fields[body.field], &sim.fields[1]);
     let find = |field: &VelocityField| {
         let node = field.grid.find(place).expect("an active node");
@@ -53,7 +53,7 @@ fn nodes_that_press_move_together_and_friction_opposes_what_slides() {
     for (friction, speed, turned) in [(0.0, 2.0, false), (0.4, 2.0, true), (0.4, 0.02, false)] {
         let mut sim = wall_and_block(2e7, true, speed, 2e-4, |scene| with_rider(scene, friction, turned));
         let wall = if turned { 2 } else { 0 };
-        assert!(sim.implicit.len() == 1 && sim.fields[sim.implicit[0].field].members == [wall]);
+        assert!(sim.structures.len() == 1 && sim.fields[sim.implicit_body().field].members == [wall]);
         let still = 1e-5 * speed;
         let (mut pressed, mut stuck, mut slid) = (0, 0, 0);
         while sim.time() < 0.02 {
@@ -87,7 +87,7 @@ fn nodes_that_press_move_together_and_friction_opposes_what_slides() {
                 }
             }
         }
-        let passes = sim.implicit[0].passes;
+        let passes = sim.implicit_body().passes;
         println!("friction {friction}: {pressed} pressed, {stuck} stuck, {slid} slid; {passes} sweeps");
         assert!(pressed > 50 && (stuck > 10) == (friction > 0.0), "{pressed} {stuck}");
         assert!((slid > 10) == (friction > 0.0), "{slid}");
@@ -99,7 +99,7 @@ fn nodes_that_press_move_together_and_friction_opposes_what_slides() {
 fn a_wall_that_nothing_touches_takes_one_sweep() {
     let mut sim = wall_and_block(2e7, true, -2.0, 2e-4, |_| ());
     (0..5).for_each(|_| sim.step().expect("a step"));
-    assert!(sim.contact_points().is_empty() && sim.implicit[0].passes == 1);
+    assert!(sim.contact_points().is_empty() && sim.implicit_body().passes == 1);
 }
 
 #[test]

@@ -5,9 +5,20 @@ mod reference;
 use crate::boundary::{Boundary, Friction};
 use crate::contact::rule::ContactRule;
 use crate::scaffold::{Brick, elastic, scene};
-use crate::simulation::implicit::THETA;
+use crate::simulation::implicit::{ImplicitBody, THETA};
+use crate::simulation::structure::Structure;
 use crate::simulation::{PicShare, Scene, Simulation};
 use nalgebra::Vector2;
+
+impl Simulation {
+    /// The first of the structures, in implicit steps.
+    fn implicit_body(&self) -> &ImplicitBody {
+        match &self.structures[0] {
+            Structure::Implicit(body) => body,
+            Structure::Lagrangian(_) => panic!("a body in implicit steps"),
+        }
+    }
+}
 
 const H: f64 = 0.02;
 

@@ -31,7 +31,7 @@ pub fn wall(shape: ShapeFunction, law: AnyLaw) -> Simulation {
     scene.bodies[0].0.implicit = true;
     scene.numerics.shape = shape;
     let sim = Simulation::new(scene);
-    assert!(sim.fields[0].bands.len() > 1 && sim.implicit.len() == 1);
+    assert!(sim.fields[0].bands.len() > 1 && sim.structures.len() == 1);
     sim
 }
 

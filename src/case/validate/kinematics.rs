@@ -1,0 +1,77 @@
+//! Bodies in total-Lagrangian kinematics: what they are made of, and what may act on them.
+
+use super::{Checker, text};
+use crate::case::boundary::{Boundary, BoundaryKind, ContactKind};
+use crate::case::geometry::direction;
+use crate::case::material::Law;
+use crate::case::path::KeyPath;
+use crate::case::schema::{Body, Integration, Kinematics};
+
+/// Cosine of the angle between a clamp and an edge of a body that is round-off.
+const SQUARE: f64 = 1.0e-9;
+/// Share of the distance of particles by which the side of a body may miss a multiple of it.
+const MULTIPLE: f64 = 1.0e-6;
+
+impl Checker<'_> {
+    pub(super) fn kinematics(&mut self, at: &KeyPath, body: &Body) {
+        if body.kinematics != Kinematics::TotalLagrangian {
+            return;
+        }
+        let path = at.key("kinematics");
+        let acts = |b: &&Boundary| b.acts_on(&body.name);
+        let spare =
+            |b: &Boundary| format!("name the bodies of boundary `{}`: bodies = [...] without `{}`", b.name, body.name);
+        let boundaries = || self.case.boundaries.iter().filter(acts);
+        let law = self.case.materials.get(&body.material).map(|m| m.law);
+        let alone = self.case.bodies.len() > 1 && !self.case.contacts.iter().any(|c| c.bodies.contains(&body.name));
+        let walls = &self.case.side_walls;
+        let (allowed, fix) = if body.integration == Integration::Implicit {
+            ("\"total_lagrangian\" only in explicit steps", "remove the line integration = \"implicit\"".to_owned())
+        } else if law.is_some_and(|law| law != Law::NeoHookean) {
+            (
+                "\"total_lagrangian\" only for a body with law = \"neo_hookean\"",
+                "use that law, or remove the line".to_owned(),
+            )
+        } else if alone {
+            (
+                "\"total_lagrangian\" only for a body in [[contacts]], or the only one",
+                "add [[contacts]] with this body, or remove the line".to_owned(),
+            )
+        } else if let Some(boundary) = boundaries().find(|b| b.contact != ContactKind::Bonded) {
+            ("\"total_lagrangian\" only for a body that no boundary but clamps acts on", spare(boundary))
+        } else if let Some(boundary) = boundaries().find(|b| !is_square(b, body)) {
+            let fix = format!("turn boundary `{}` to an edge of the body, or remove the line", boundary.name);
+            ("\"total_lagrangian\" only with clamps that are planes along an edge of the body", fix)
+        } else if walls.friction > 0.0 && walls.act_on(&body.name) {
+            let fix = format!("name the others: side_walls.bodies = [...] without `{}`", body.name);
+            ("\"total_lagrangian\" only for a body that side walls do not touch", fix)
+        } else {
+            return self.multiples(at, body);
+        };
+        self.not_allowed(&path, &body.kinematics, allowed, &fix);
+    }
+
+    /// The particles fill the rectangle that is drawn.
+    fn multiples(&mut self, at: &KeyPath, body: &Body) {
+        let spacing = body.particle_spacing_m(&self.case.grid);
+        for (key, [low, high]) in [("x_m", body.x_m), ("y_m", body.y_m)] {
+            let count = (high - low) / spacing;
+            let nearest = count.round().max(1.0);
+            if count.is_finite() && (count - nearest).abs() > MULTIPLE * count.max(1.0) {
+                let what = format!("body `{}` is {} distances of its particles long", body.name, text(count));
+                let allowed = format!("a multiple of {} m, for kinematics = \"total_lagrangian\"", text(spacing));
+                let fix = format!("use {key} = [{}, {}]", text(low), text(low + nearest * spacing));
+                self.problem(&at.key(key), what, &[low, high], &allowed, &fix);
+            }
+        }
+    }
+}
+
+/// Whether a boundary is a plane along an edge of the body; also where it lacks what says so, which is refused elsewhere.
+fn is_square(boundary: &Boundary, body: &Body) -> bool {
+    let Some(angle) = boundary.normal_deg.filter(|_| boundary.kind == BoundaryKind::Plane) else {
+        return boundary.kind == BoundaryKind::Plane;
+    };
+    let [c, s] = direction(angle - body.rotation_deg);
+    c.abs().min(s.abs()) < SQUARE
+}
