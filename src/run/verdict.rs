@@ -11,7 +11,7 @@ use crate::case;
 use crate::gauge::flow::flowing;
 use std::collections::BTreeMap;
 
-/// Energy that may be missing, of what was released. The flume leaves 0.0003 +- 0.0001 of its E0 open on moved grids; a bowl and a
+/// Energy that may be missing, of what was released. The flume leaves 0.0004 +- 0.0001 of its E0 open on moved grids; a bowl and a
 /// block whose contact was wrong left 0.04 and 0.05 (docs/limits.md, "Where boundaries act").
 const ENERGY_OPEN: f64 = 0.02;
 /// Momentum closes to round-off, of all impulses: 1e-15 is seen.
