@@ -88,7 +88,8 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Depo
     let end = records.momentum.last()?;
     let start = records.momentum.iter().find(|r| r.time >= end.time - STATIC_WINDOW)?;
     let base_index = experiment.base()?;
-    let own = |b: usize| b == base_index || structures.iter().any(|s| sim.boundaries()[b].bodies == [*s]);
+    let clamps = |bodies: &[usize]| !bodies.is_empty() && bodies.iter().all(|b| structures.contains(b));
+    let own = |b: usize| b == base_index || clamps(&sim.boundaries()[b].bodies);
     let along_base = |p: [f64; 2]| way * (p[0] * base.tangent.x + p[1] * base.tangent.y);
     let push = |row: &MomentumRow| -> f64 {
         let others = row.ledger.boundaries.iter().enumerate().filter(|(b, _)| !own(*b));

@@ -114,7 +114,9 @@ pub fn barrier_face(case: &Case, name: &str) -> Option<Boundary> {
     let (across, up) = (direction(body.rotation_deg), direction(body.rotation_deg + 90.0));
     let centre = |b: &case::Body| b.corners_m().map(Vector2::from).iter().sum::<Vector2<f64>>() / 4.0;
     let partner = |b: &&case::Body| {
-        b.name != name && case.contacts.iter().any(|c| c.bodies.contains(&b.name) && c.bodies.iter().any(|n| n == name))
+        b.name != name
+            && !case.gauges.barrier_names().any(|other| other == b.name)
+            && case.contacts.iter().any(|c| c.bodies.contains(&b.name) && c.bodies.iter().any(|n| n == name))
     };
     let beside: f64 = case.bodies.iter().filter(partner).map(|b| (centre(b) - centre(body)).dot(&across)).sum();
     let corner = Vector2::new(body.x_m[0], body.y_m[0]) + across * if beside > 0.0 { length } else { 0.0 };

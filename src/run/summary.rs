@@ -137,10 +137,8 @@ impl Summary {
     fn build(case: &Case, experiment: &Experiment, records: &Records, status: String, end: Option<End>) -> Self {
         let scales = *experiment.scales();
         let front = passages(case, records, &scales);
-        let mut barrier = experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history, &scales));
-        if let (Some(barrier), Some(front)) = (barrier.as_mut().filter(|b| b.arrival_s.is_some()), front.last()) {
-            barrier.compare(front, &scales, experiment.simulation().thickness());
-        }
+        let barrier = experiment.barrier().and_then(|gauge| barrier::results(gauge, &records.history, &scales));
+        let barrier = arrived(barrier, experiment, front.last());
         let structure = |b| structure::results(b, records, &records.energy, &scales);
         let mut summary = Self {
             trusted: false,
@@ -152,7 +150,7 @@ impl Summary {
             scales,
             barrier,
             structure: experiment.barriers().first().and_then(structure),
-            further_barriers: further_barriers(experiment, records),
+            further_barriers: further_barriers(experiment, records, front.last()),
             deposit: deposit::results(experiment, records),
             further_bases: deposit::further_bases(experiment, records),
             energy: balances::energy(records),
@@ -194,14 +192,26 @@ fn stepping(experiment: &Experiment) -> Stepping {
     }
 }
 
-fn further_barriers(experiment: &Experiment, records: &Records) -> Vec<FurtherBarrier> {
+fn further_barriers(experiment: &Experiment, records: &Records, front: Option<&FrontPassage>) -> Vec<FurtherBarrier> {
     let with_records = experiment.barriers().iter().skip(1).zip(&records.further);
     let results = with_records.map(|(b, own)| FurtherBarrier {
         name: b.name().into(),
-        barrier: barrier::results(b.force(), &own.history, experiment.scales()),
+        barrier: arrived(barrier::results(b.force(), &own.history, experiment.scales()), experiment, front),
         structure: structure::results(b, own, &records.energy, experiment.scales()),
     });
     results.collect()
+}
+
+/// The results of a barrier, held against the front if one arrived.
+fn arrived(
+    mut results: Option<BarrierResults>,
+    experiment: &Experiment,
+    front: Option<&FrontPassage>,
+) -> Option<BarrierResults> {
+    if let (Some(barrier), Some(front)) = (results.as_mut().filter(|b| b.arrival_s.is_some()), front) {
+        barrier.compare(front, experiment.scales(), experiment.simulation().thickness());
+    }
+    results
 }
 
 fn passages(case: &Case, records: &Records, scales: &Scales) -> Vec<FrontPassage> {

@@ -145,7 +145,9 @@ fn ledgers(summary: &Summary, experiment: &Experiment, records: &Records, add: &
     // A motion that lowers the material by less than a cell is none that the grid resolves.
     let least = mass * summary.case.gravity.magnitude_m_per_s2 * h;
     let released = summary.energy.released_j.max(least);
-    let missing = records.energy.iter().map(|r| r.balance.residual.abs()).fold(0.0, f64::max);
+    // What is not a number is not small.
+    let worst = |a: f64, b: f64| if b.is_nan() { f64::INFINITY } else { a.max(b) };
+    let missing = records.energy.iter().map(|r| r.balance.residual.abs()).fold(0.0, worst);
     if released > 0.0 && missing > ENERGY_OPEN * released {
         add(
             Kind::Energy,

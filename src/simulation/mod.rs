@@ -172,13 +172,14 @@ impl Simulation {
 
     /// Does stages of a step on all fields but those of structures, which take their `turn` meanwhile.
     fn sweep_all(&mut self, stages: &[(On, Stage)], dt: f64, turn: Option<Turn>) {
+        let alone = self.in_one_sweep();
         // The bands leave their fields, which all threads read, for as long as they are worked on.
         let (mut bands, mut pools) = (std::mem::take(&mut self.bands), std::mem::take(&mut self.pools));
         self.swap_bands(&mut bands);
         let mut structures = std::mem::take(&mut self.structures);
         structures.iter_mut().for_each(|b| b.swap(&mut self.fields));
         let step = self.begin(dt);
-        let lent = self.in_one_sweep().then_some(&mut pools);
+        let lent = alone.then_some(&mut pools);
         let sweep = || {
             sweep::sweep(stages, &mut bands, lent, &|&stage, k, before, band| {
                 step.run(stage, &self.fields[k], before, band);

@@ -51,11 +51,18 @@ impl Occupied {
         if !open(&fields[k]) {
             return;
         }
-        if boundaries.iter().any(|b| b.velocity.norm_squared() > 0.0 || (b.released && !b.is_gone())) {
+        if boundaries.iter().any(|b| b.velocity.norm_squared() > 0.0) {
             self.forget_boundaries();
         }
-        self.fill(fields, k);
-        self.share(&fields[k], k, boundaries, thickness);
+        // A gate has no back, and clamps hold what lies in them.
+        let members = &fields[k].members;
+        let solid: Vec<&Boundary> = boundaries
+            .iter()
+            .filter(|b| b.opening.is_none() || !b.released)
+            .filter(|b| b.friction != Friction::Bonded && b.acts_on(members))
+            .collect();
+        self.fill(fields, k, &solid);
+        self.share(&fields[k], k, &solid, thickness);
         let VelocityField { grid, bands, .. } = &mut fields[k];
         for points in bands.iter_mut().flat_map(|b| &mut b.points) {
             for b in 0..points.block_count() {
@@ -68,7 +75,7 @@ impl Occupied {
                     let Some([least, most]) = limits(&self.filled, grid, [block.x[0][l], block.x[1][l]]) else {
                         continue;
                     };
-                    let opened = block.opened[l].clamp(least, most);
+                    let opened = block.opened[l].min(most).max(least);
                     block.volume_ratio[l] *= libm::exp(opened - block.opened[l]);
                     block.opened[l] = opened;
                 }
@@ -78,17 +85,20 @@ impl Occupied {
     }
 
     /// Volume of the material at each node of the grid of field `k`, m3, its openings left out.
-    fn fill(&mut self, fields: &[VelocityField], k: usize) {
+    fn fill(&mut self, fields: &[VelocityField], k: usize, solid: &[&Boundary]) {
         let grid = &fields[k].grid;
         self.filled.clear();
         self.filled.resize(grid.len(), 0.0);
-        for field in fields {
+        for (f, field) in fields.iter().enumerate() {
             let bodies = &field.bodies;
             let own: Vec<_> = field.members.iter().zip(bodies).collect();
+            // Others may lie in what is solid to this one.
+            let buried = |x: [f64; 2]| f != k && solid.iter().any(|s| s.depth(x) > 0.0);
             for (body, block, n) in field.blocks() {
                 let Some((_, b)) = own.iter().find(|(m, _)| **m == body) else { continue };
                 for l in 0..n {
-                    let Some((nodes, [u, v])) = cell(grid, [block.x[0][l], block.x[1][l]]) else { continue };
+                    let x = [block.x[0][l], block.x[1][l]];
+                    let Some((nodes, [u, v])) = cell(grid, x).filter(|_| !buried(x)) else { continue };
                     let volume = b.point_volume * block.volume_ratio[l] * libm::exp(-block.opened[l]);
                     for (node, share) in nodes.into_iter().zip(hats(u, v)) {
                         self.filled[node] += share * volume;
@@ -99,13 +109,9 @@ impl Occupied {
     }
 
     /// Turns volumes into shares of what is outside of boundaries.
-    fn share(&mut self, field: &VelocityField, k: usize, boundaries: &[Boundary], thickness: f64) {
+    fn share(&mut self, field: &VelocityField, k: usize, solid: &[&Boundary], thickness: f64) {
         let grid = &field.grid;
         let h = grid.spacing;
-        let solid: Vec<&Boundary> = boundaries
-            .iter()
-            .filter(|b| !b.is_gone() && b.friction != Friction::Bonded && b.acts_on(&field.members))
-            .collect();
         let whole = 1.0 / (h * h * thickness);
         for (c, column) in grid.columns.iter().enumerate() {
             for r in 0..column.rows {
@@ -116,7 +122,7 @@ impl Occupied {
                 let row = i64::from(column.row) + i64::from(r);
                 let place = (k, grid.first[0] + c as i64, grid.first[1] + row);
                 let x = [grid.corner[0] + c as f64 * h, grid.corner[1] + row as f64 * h];
-                let outside = self.outside.entry(place).or_insert_with(|| outside(&solid, x, h));
+                let outside = self.outside.entry(place).or_insert_with(|| outside(solid, x, h));
                 *filled *= whole / *outside;
             }
         }

@@ -69,3 +69,15 @@ fn pic_that_moves_the_material_is_a_warning() {
         assert!(warnings.iter().all(|w| w.contains("brakes the flow by itself")), "{warnings:?}");
     }
 }
+
+#[test]
+fn a_structure_whose_sides_its_particles_do_not_divide_is_refused() {
+    let odd = fence(0.063, true);
+    let refused = parse(&odd, "some/case.toml").expect_err("its faces would be lost").to_string();
+    assert!(refused.contains("for a structure, whose faces are traced along particles"), "{refused}");
+    assert!(refused.contains("fix: use x_m = [1.4, 1.465]"), "{refused}");
+    // With the particles of the cells it is as it was, and its mass another.
+    let square = odd.replacen("[grid]", "[grid]\nfilling = \"square\"", 1);
+    let warnings = warnings_of(&square);
+    assert!(warnings.iter().all(|w| !w.contains("multiple")), "{warnings:?}");
+}

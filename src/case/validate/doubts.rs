@@ -7,11 +7,13 @@ use super::{Problem, text, text_down, toml_text};
 use crate::case::boundary::{Boundary, ContactKind, Shape};
 use crate::case::geometry::{penetration_of_plane, penetration_of_rectangle};
 use crate::case::path::KeyPath;
-use crate::case::schema::{Body, Case};
+use crate::case::schema::{Body, Case, Kinematics};
 use crate::simulation::PicShare;
 
 /// A structure needs so many cells through its depth (`docs/limits.md`, rung `cantilever`).
 const STRUCTURE_CELLS: f64 = 6.0;
+/// The same of one that moves by a mesh of its own.
+const MESH_CELLS: f64 = 2.0;
 /// Half of a motion's energy is gone after this many times of decay.
 const HALF: f64 = std::f64::consts::LN_2;
 
@@ -95,16 +97,14 @@ fn thin(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
     let cells = depth / case.grid.spacing_m;
     let elastic = case.materials.get(&body.material).is_some_and(|m| m.drucker_prager().is_none());
     let key = if length <= height { "x_m" } else { "y_m" };
-    let few = is_barrier(case, body) && elastic && cells < STRUCTURE_CELLS * (1.0 - 1.0e-9);
+    let least = if body.kinematics == Kinematics::TotalLagrangian { MESH_CELLS } else { STRUCTURE_CELLS };
+    let few = is_barrier(case, body) && elastic && cells < least * (1.0 - 1.0e-9);
     few.then(|| Problem {
         path: at.key(key),
         what: format!("the barrier `{}` is {} cells thick", body.name, text(cells)),
         value: toml_text(&if length <= height { body.x_m } else { body.y_m }),
-        allowed: format!("{} cells or more through a body that bends", text(STRUCTURE_CELLS)),
-        fix: format!(
-            "use grid.spacing_m = {} or less, or read only whether it holds",
-            text_down(depth / STRUCTURE_CELLS)
-        ),
+        allowed: format!("{} cells or more through a body that bends", text(least)),
+        fix: format!("use grid.spacing_m = {} or less, or read only whether it holds", text_down(depth / least)),
     })
 }
 

@@ -1,8 +1,9 @@
-//! Bodies in total-Lagrangian kinematics: what they are made of, and what may act on them.
+//! Bodies in total-Lagrangian kinematics: what they are made of, and what may act on them. Structures of either kinematics: their sides.
 
 use super::{Checker, text};
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind};
 use crate::case::geometry::direction;
+use crate::case::grid::Filling;
 use crate::case::material::Law;
 use crate::case::path::KeyPath;
 use crate::case::schema::{Body, Integration, Kinematics};
@@ -15,6 +16,12 @@ const MULTIPLE: f64 = 1.0e-6;
 impl Checker<'_> {
     pub(super) fn kinematics(&mut self, at: &KeyPath, body: &Body) {
         if body.kinematics != Kinematics::TotalLagrangian {
+            let named = |name: Option<&str>| name == Some(body.name.as_str());
+            let structure = self.case.contacts.iter().any(|c| named(c.structure_name()))
+                || self.case.gauges.barrier_names().any(|name| name == body.name);
+            if structure && self.case.grid.filling == Filling::Fitted {
+                self.multiples(at, body, "a structure, whose faces are traced along particles as far apart both ways");
+            }
             return;
         }
         let path = at.key("kinematics");
@@ -46,20 +53,20 @@ impl Checker<'_> {
             let fix = format!("name the others: side_walls.bodies = [...] without `{}`", body.name);
             ("\"total_lagrangian\" only for a body that side walls do not touch", fix)
         } else {
-            return self.multiples(at, body);
+            return self.multiples(at, body, "kinematics = \"total_lagrangian\"");
         };
         self.not_allowed(&path, &body.kinematics, allowed, &fix);
     }
 
     /// The particles fill the rectangle that is drawn.
-    fn multiples(&mut self, at: &KeyPath, body: &Body) {
+    fn multiples(&mut self, at: &KeyPath, body: &Body, needed_by: &str) {
         let spacing = body.particle_spacing_m(&self.case.grid);
         for (key, [low, high]) in [("x_m", body.x_m), ("y_m", body.y_m)] {
             let count = (high - low) / spacing;
             let nearest = count.round().max(1.0);
             if count.is_finite() && (count - nearest).abs() > MULTIPLE * count.max(1.0) {
                 let what = format!("body `{}` is {} distances of its particles long", body.name, text(count));
-                let allowed = format!("a multiple of {} m, for kinematics = \"total_lagrangian\"", text(spacing));
+                let allowed = format!("a multiple of {} m, for {needed_by}", text(spacing));
                 let fix = format!("use {key} = [{}, {}]", text(low), text(low + nearest * spacing));
                 self.problem(&at.key(key), what, &[low, high], &allowed, &fix);
             }
