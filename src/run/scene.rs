@@ -225,6 +225,27 @@ mod tests {
         assert_eq!(cases[1].particle_count_estimate(), 19240.0);
     }
 
+    /// A barrier behind another one, which it touches, faces the flow all the same.
+    #[test]
+    fn the_face_of_a_barrier_is_on_the_side_of_what_flows() {
+        let text = include_str!("../../validation/barrier/60deg.toml");
+        let mut case = case::parse(text, "60deg.toml").expect("a case").case;
+        let before = barrier_face(&case, "barrier").expect("a face").normal;
+        let (mut second, mut contact) = (case.bodies[1].clone(), case.contacts[0].clone());
+        second.name = "second".into();
+        let [c, s] = direction(second.rotation_deg).into();
+        // Far to its right: as if it were what presses on the barrier's back.
+        second.x_m = second.x_m.map(|x| x + 3.0 * c);
+        second.y_m = second.y_m.map(|y| y + 3.0 * s);
+        contact.bodies = vec!["barrier".into(), "second".into()];
+        case.bodies.push(second);
+        case.contacts.push(contact);
+        let turned = barrier_face(&case, "barrier").expect("a face").normal;
+        case.gauges.barriers = vec!["second".into()];
+        assert_eq!(barrier_face(&case, "barrier").expect("a face").normal, before);
+        assert_ne!(turned, before, "a body that is no barrier counts");
+    }
+
     /// The recorded runs of the rigid barrier at 60 degrees on 20 mm have half a row of points too many.
     #[test]
     fn a_square_lattice_is_that_of_the_cells() {
