@@ -8,7 +8,7 @@ use crate::simulation::Simulation;
 pub struct WallState {
     /// Highest point within 1.5 cells of the face, m above the foot.
     pub run_up: f64,
-    /// 95th percentile of the heights of these points, see [`percentile`].
+    /// 95th percentile of the heights of these points.
     pub run_up_p95: f64,
     /// Mass that is more than a cell behind the face now, kg.
     pub behind: f64,
