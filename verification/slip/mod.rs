@@ -45,7 +45,7 @@ const TURN: Figure = curves(
         y_title: "displacement (m)",
         curves: &[measured("displacement_m", ""), exact("displacement_exact_m", "exact")],
         panels: &[panel("pushed up the slope", &[("pushed", "up")]), panel("let go", &[("pushed", "not")])],
-        split: &[("plane_to_grid_deg", "plane to grid (degrees) ")],
+        split: &[("block", "")],
         ..Curves::LINEAR
     },
 );
@@ -62,23 +62,31 @@ const LOOP: Figure = curves(
     },
 );
 
+/// The blocks that turn round, in the order in which they run.
+const BLOCKS: [&str; 5] =
+    ["on the grid's line", "to the left", "at 17 degrees to the grid", "at -40 degrees, to the left", "twice as large"];
 const CLOSED_FORM: &str = "elastic-perfectly-plastic slider";
 
 fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
     let mut outcome = Outcome::default();
     let mut rows = Vec::new();
     let mut ends = Vec::new();
-    for (plane, offset, leftward, size) in [
+    for (k, (plane, offset, leftward, size)) in [
         (0.0, 0.14, false, 1.0),
         (0.0, 0.14, true, 1.0),
         (17.0, 0.5, false, 1.0),
         (-40.0, 0.8, true, 1.0),
         (0.0, 0.14, false, 2.0),
-    ] {
+    ]
+    .into_iter()
+    .enumerate()
+    {
         let l = Block::LEVEL;
         let block = Block { plane, offset, leftward, slope: 10.0, cell: size * l.cell, length: size * l.length, ..l };
         for (pushed, speed) in [(0.0, -0.8), (1.0, 0.0)] {
+            let from = rows.len();
             let end = turn(&block, speed * size.sqrt(), pushed, fault, &mut rows, &mut outcome)?;
+            rows[from..].iter_mut().for_each(|row| row[1] = k as f64);
             ends.push(end / size);
         }
     }
@@ -90,8 +98,10 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
                 .from(Kind::Conservation, "symmetry and similarity"),
         );
     }
-    let header = ["pushed", "plane_to_grid_deg", "size", "time_s", "displacement_m", "displacement_exact_m"];
-    outcome.tables.push(("slip_turn".into(), named_csv(&header, &[("pushed", &["up", "not"])], rows)));
+    let header = ["pushed", "block", "size", "time_s", "displacement_m", "displacement_exact_m"];
+    outcome
+        .tables
+        .push(("slip_turn".into(), named_csv(&header, &[("pushed", &["up", "not"]), ("block", &BLOCKS)], rows)));
     hold(fault, &mut outcome)?;
     cycle(fault, &mut outcome)?;
     fast(fault, &mut outcome)?;
@@ -120,7 +130,7 @@ fn turn(
         let x = block.centre(&sim)[0] - start;
         let exact = slider.after(Sliding { v: speed, ..Sliding::default() }, sim.time()).x;
         worst = worst.max((x - exact).abs());
-        rows.push(vec![pushed, block.plane, size, sim.time(), x, exact]);
+        rows.push(vec![pushed, 0.0, size, sim.time(), x, exact]);
         last = x;
     }
     let name = format!(
