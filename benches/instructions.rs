@@ -13,6 +13,10 @@ use checkdam::simulation::{Scheme, Simulation};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
+// What is counted has no switch for faults on purpose.
+#[cfg(not(debug_assertions))]
+const _: () = assert!(!checkdam::seeded::COMPILED);
+
 /// Relative change that is let pass: the C library and the linker decide a little of the count.
 const TOLERANCE: f64 = 0.02;
 const POINTS: usize = 4000;

@@ -42,7 +42,7 @@ impl Default for Block {
     }
 }
 
-/// Slip of a material point on the boundaries that it touches, see [`crate::boundary::slip`].
+/// Slip of a material point on the boundaries that it touches, see `boundary::slip`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Slip {
     /// Elastic slip, m: a vector along the surface, so that it is the same for any grid and for any piece of the surface.
@@ -245,6 +245,11 @@ impl Points {
         &self.ids
     }
 
+    /// The blocks; lanes beyond the last point repeat one.
+    pub fn all(&self) -> &[Block] {
+        &self.blocks
+    }
+
     /// A block, if there are so many.
     #[inline(always)]
     pub fn block(&self, number: usize) -> Option<&Block> {
@@ -313,8 +318,8 @@ pub struct Body {
     pub weightless: bool,
     /// Whether the side walls touch it.
     pub between_side_walls: bool,
-    /// Whether it moves in implicit steps, so that its waves do not limit the time step; for elastic laws, in contact, held by
-    /// clamps alone.
+    /// Whether it moves in implicit steps, so that its waves do not limit the time step; for elastic laws, held by clamps alone, in contact or
+    /// with a mesh.
     pub implicit: bool,
     /// Its reference configuration, if it moves by the nodes of that (total-Lagrangian kinematics) and its points go with them; else each
     /// point keeps its own deformation, and the grid moves it (updated Lagrangian). For neo-Hookean bodies that clamps alone hold.

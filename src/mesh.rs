@@ -78,8 +78,8 @@ impl Mesh {
         Self { corner, axis: [libm::cos(angle), libm::sin(angle)], lines }
     }
 
-    /// Nodes along either axis.
-    fn counts(&self) -> [usize; 2] {
+    /// Nodes along either axis. Numbers of nodes count up along the second axis first.
+    pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|d| 2 * self.lines[d].len() - 1)
     }
 

@@ -10,6 +10,7 @@ use crate::band::{Band, NodeSum, OpenNode};
 use crate::boundary::Boundary;
 use crate::boundary::nodes::{self, Hold, Remapped, Tally};
 use crate::ledger::Distributed;
+use crate::seeded::{self, Seed};
 use crate::space::{mean, minus, norm, plus, scaled};
 
 /// What acts on every node alike.
@@ -152,6 +153,8 @@ fn balance_nodes<const SHARED: bool>(
     let sums = tail(before.as_deref(), |b| &b.work.sums);
     let work = &mut band.work;
     let (mut next_hold, mut next_shared) = (0, 0);
+    let gravity = forces.gravity.map(|g| seeded::times(Seed::MomentumGravity, g));
+    let late = seeded::is(Seed::MomentumDrag);
     for i in 0..work.mass.len() {
         let sum = total(sums, &work.sums, i);
         let m = sum.mass();
@@ -178,7 +181,7 @@ fn balance_nodes<const SHARED: bool>(
         if let Some(field) = field {
             f = plus(f, field);
         }
-        let mut v = plus(old, scaled(plus(scaled(f, per_m), forces.gravity), dt));
+        let mut v = plus(old, scaled(plus(scaled(f, per_m), gravity), dt));
         let mut damped = [0.0; 2];
         if forces.damping > 0.0 {
             let share = (dt * forces.damping).min(1.0);
@@ -207,7 +210,7 @@ fn balance_nodes<const SHARED: bool>(
             band.distributed.damping.add(damped, mean);
         }
         if side_friction > 0.0 {
-            band.distributed.side_walls.add(braked, mean);
+            band.distributed.side_walls.add(braked, if late { v } else { mean });
         }
         if let Some(f) = field {
             band.distributed.field.add(scaled(f, dt), mean);

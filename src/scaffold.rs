@@ -17,6 +17,14 @@ pub fn elastic(young: f64, poisson: f64) -> AnyLaw {
     AnyLaw::LinearElastic(LinearElastic::new(young, poisson))
 }
 
+/// A case: sand behind a gate, in a flume that is tilted, and a rigid barrier.
+#[cfg(test)]
+pub(crate) const FLUME: &str = include_str!("scaffold/flume.toml");
+
+/// A case: the same sand against a barrier that bends.
+#[cfg(test)]
+pub(crate) const BARRIER: &str = include_str!("scaffold/barrier.toml");
+
 /// Extent of every scene across the plane, m.
 pub const THICKNESS: f64 = 0.1;
 

@@ -3,6 +3,7 @@
 //! Elsewhere: the Courant or CFL condition, the critical time step of explicit integration.
 
 use crate::body::Body;
+use crate::seeded::{self, Seed};
 
 /// What kept the time step from being longer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +39,8 @@ pub fn stable_time_step(bodies: &[Body], speeds: &[f64], spacing: f64, cfl: f64,
         let c = body.p_wave_speed();
         // Nothing flows through the elements of a mesh: the speed counts where points would leave a cell.
         let fastest = if body.mesh.is_some() { c.max(speed) } else { c + speed };
-        let dt = cfl * spacing / fastest;
+        let fastest = if seeded::is(Seed::TimestepSpeed) { c } else { fastest };
+        let dt = seeded::times(Seed::TimestepWave, cfl * spacing / fastest);
         if dt < best.dt {
             let limit = if speed > c { TimeStepLimit::Speed(index) } else { TimeStepLimit::Wave(index) };
             best = TimeStep { dt, limit, wave_speed: c, particle_speed: speed };

@@ -14,7 +14,7 @@ use std::path::Path;
 pub fn pages(reports: &Path) -> Result<[(&'static str, String); 3], String> {
     let [rungs, validations] = [files(&reports.join("verification"))?, files(&reports.join("validation"))?];
     Ok([
-        ("README.md", index(reports)?),
+        ("README.md", index(reports, &rungs, &validations)?),
         ("verification/README.md", ladder(reports, &rungs)?),
         ("validation/README.md", experiments(reports, &validations)?),
     ])
@@ -52,7 +52,14 @@ fn verdict(reports: &Path, suite: &str, name: &str) -> Result<String, String> {
     })
 }
 
-fn index(reports: &Path) -> Result<String, String> {
+/// The figures of a rung or a validation, as links from the page above all suites.
+fn figures(suite: &str, name: &str, all: &[&str], files: &[String]) -> String {
+    let own = own(name, all, files).filter_map(|file| file.strip_suffix(".svg"));
+    let called = |figure: &str| figure.strip_prefix(name).unwrap_or(figure).trim_start_matches('_').replace('_', " ");
+    own.map(|figure| format!("[{}]({suite}/{figure}.svg)", called(figure))).collect::<Vec<_>>().join(", ")
+}
+
+fn index(reports: &Path, rungs: &[String], validations: &[String]) -> Result<String, String> {
     let mut page = String::from(
         "# What the two suites find\n\n\
          Made by `cargo reports` and compared byte for byte by `cargo test`. Each table of checks says what was measured, what should \
@@ -60,26 +67,30 @@ fn index(reports: &Path) -> Result<String, String> {
          ## Are the equations solved right?\n\n\
          Closed forms, exact fields, conservation laws and observed orders. Scenes, sources and figures: \
          [verification](verification/README.md). What each rung notices when the physics is wrong on purpose: \
-         [faults](verification/faults.csv).\n\n\
-         | rung | what it runs | verdict |\n|---|---|---|\n",
+         [faults](verification/faults.csv). All of them as a table: [ladder](verification/ladder.csv).\n\n\
+         | rung | what it runs | verdict | figures |\n|---|---|---|---|\n",
     );
+    let names: Vec<&str> = RUNGS.iter().map(|r| r.name).collect();
     for rung in RUNGS {
         let verdict = verdict(reports, "verification", rung.name)?;
-        let _ = writeln!(page, "| [{0}](verification/{0}.csv) | {1} | {verdict} |", rung.name, rung.title);
+        let (name, title) = (rung.name, rung.title);
+        let figures = figures("verification", name, &names, rungs);
+        let _ = writeln!(page, "| [{name}](verification/{name}.csv) | {title} | {verdict} | {figures} |");
     }
     page.push_str(
         "\n## Are they the right equations?\n\n\
          Experiments and published computations. A verdict here says that balances, bounds and sampling are as they must be; whether \
          the numbers agree with the source stands in the tables. All tables and figures: [validation](validation/README.md).\n\n\
-         | validation | what it shows | verdict |\n|---|---|---|\n",
+         | validation | what it shows | verdict | figures |\n|---|---|---|---|\n",
     );
-    for validation in VALIDATIONS {
-        let verdict = verdict(reports, "validation", validation.name)?;
-        let _ = writeln!(page, "| [{0}](validation/{0}.csv) | {1} | {verdict} |", validation.name, validation.title);
-    }
-    for (name, title) in data_alone(reports)? {
-        let verdict = verdict(reports, "validation", &name)?;
-        let _ = writeln!(page, "| [{name}](validation/{name}_page.md) | {title} | {verdict} |");
+    let coded = VALIDATIONS.iter().map(|v| (v.name.to_string(), v.title.to_string(), ".csv"));
+    let alone = data_alone(reports)?.into_iter().map(|(name, title)| (name, title, "_page.md"));
+    let every: Vec<_> = coded.chain(alone).collect();
+    let names: Vec<&str> = every.iter().map(|v| v.0.as_str()).collect();
+    for (name, title, end) in &every {
+        let verdict = verdict(reports, "validation", name)?;
+        let figures = figures("validation", name, &names, validations);
+        let _ = writeln!(page, "| [{name}](validation/{name}{end}) | {title} | {verdict} | {figures} |");
     }
     Ok(page)
 }

@@ -100,8 +100,10 @@ impl From<StepFailure> for Failure {
 
 impl From<RungFailure> for Failure {
     fn from(failure: RungFailure) -> Self {
-        let RungFailure::Step(failure) = failure;
-        Failure::Step(failure)
+        match failure {
+            RungFailure::Step(failure) => Failure::Step(failure),
+            RungFailure::Files(what) => Failure::Record(what),
+        }
     }
 }
 
@@ -112,6 +114,8 @@ pub const VALIDATIONS: &[Validation] = &[
     flume::baseline::VALIDATION,
     flume::sensitivity::VALIDATION,
     flume::at_rest::VALIDATION,
+    flume::shaken::VALIDATION,
+    flume::step_length::VALIDATION,
     flume::calibration::VALIDATION,
     flume::verdict::VALIDATION,
     barrier::beam::VALIDATION,
@@ -120,6 +124,7 @@ pub const VALIDATIONS: &[Validation] = &[
     barrier::rigidity::VALIDATION,
     barrier::grids::VALIDATION,
     barrier::steps::VALIDATION,
+    barrier::kinematics::VALIDATION,
     barrier::density::VALIDATION,
     barrier::weight::VALIDATION,
     barrier::close_up::VALIDATION,
@@ -136,15 +141,19 @@ pub const STUDIES: &[(&str, RecordedRows)] = &[
     ("flume/runs/baseline.csv", || flume::baseline::RECORD.rows()),
     ("flume/runs/finest.csv", || flume::baseline::FINEST.rows()),
     ("flume/runs/sensitivity.csv", || flume::sensitivity::RECORD.rows()),
+    ("flume/runs/step_length.csv", || flume::step_length::RECORD.rows()),
     ("flume/runs/at_rest.csv", || flume::at_rest::RECORD.rows()),
     ("flume/runs/calibration.csv", || flume::calibration::SAMPLE.rows()),
     ("flume/runs/refined.csv", || flume::calibration::REFINED.rows()),
     ("barrier/runs/rigidity.csv", || barrier::records::RIGIDITY.record.rows()),
     ("barrier/runs/scatter.csv", || barrier::records::SCATTER.record.rows()),
+    ("barrier/runs/grids.csv", || barrier::records::GRIDS.record.rows()),
     ("barrier/runs/fine.csv", || barrier::records::FINE.record.rows()),
     ("barrier/runs/rigid.csv", || barrier::records::RIGID.record.rows()),
+    ("barrier/runs/wall_at_nodes.csv", || barrier::records::WALL_AT_NODES.record.rows()),
     ("barrier/runs/integration.csv", || barrier::records::INTEGRATION.record.rows()),
     ("barrier/runs/short_steps.csv", || barrier::records::SHORT_STEPS.record.rows()),
+    ("barrier/runs/kinematics.csv", || barrier::records::KINEMATICS.record.rows()),
     ("barrier/runs/density.csv", || barrier::records::DENSITY.record.rows()),
     ("barrier/runs/weight.csv", || barrier::records::WEIGHT.record.rows()),
     ("barrier/runs/scatter_calibrated.csv", || barrier::records::SCATTER_CALIBRATED.record.rows()),

@@ -1,6 +1,8 @@
 //! Runs the validations. What must hold whatever the sources say is judged first, then tables and figures are compared with those
 //! in `reports/validation`; after a change that is meant, `cargo reports` writes them anew.
 
+use checkdam::case;
+use checkdam::study::{Study, plan};
 use checkdam_validation::experiment::Experiment;
 use checkdam_validation::record::{RecordedRun, processors, spread_out};
 use checkdam_validation::{Context, Failure, STUDIES, VALIDATIONS, Validation, write};
@@ -68,6 +70,8 @@ validations!(
     flume_baseline,
     flume_sensitivity,
     flume_at_rest,
+    flume_shaken,
+    flume_step_length,
     flume_calibration,
     flume_verdict,
     barrier_beam,
@@ -76,6 +80,7 @@ validations!(
     barrier_rigidity,
     barrier_grids,
     barrier_steps,
+    barrier_kinematics,
     barrier_density,
     barrier_weight,
     barrier_close_up,
@@ -166,12 +171,15 @@ fn a_sample_of_the_record_is_what_the_studies_give() {
     assert!(wrong.is_empty(), "{} of {} runs are not on record so:\n{}", wrong.len(), lines.len(), wrong.join("\n"));
 }
 
-/// No record is forgotten; `noise.csv` holds means that every `cargo test` compares with runs.
+/// No record is forgotten. `noise.csv` holds means that every `cargo test` compares with runs, and `shaken.csv` forces that no study reads.
 #[test]
 fn every_record_is_among_the_studies() {
     for folder in std::fs::read_dir(root().join("validation")).expect("the validations").filter_map(Result::ok) {
         let Ok(files) = std::fs::read_dir(folder.path().join("runs")) else { continue };
-        for file in files.filter_map(Result::ok).filter(|f| f.file_name() != "noise.csv") {
+        for file in files
+            .filter_map(Result::ok)
+            .filter(|f| !["noise.csv", "shaken.csv"].contains(&&*f.file_name().to_string_lossy()))
+        {
             let name = format!("{}/runs/{}", folder.file_name().to_string_lossy(), file.file_name().to_string_lossy());
             assert!(STUDIES.iter().any(|s| s.0 == name), "{name} is not in STUDIES");
         }
@@ -189,4 +197,51 @@ fn the_record_is_what_the_studies_give() {
         });
         assert_eq!(recorded, anew, "{}: make its record anew", validation.name);
     }
+}
+
+/// Case files and study files of a folder and below it.
+fn toml_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for path in std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("an entry").path()) {
+        if path.is_dir() {
+            toml_files(&path, found);
+        } else if path.extension().is_some_and(|e| e == "toml") && !path.ends_with("Cargo.toml") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_case_loads_without_warnings_and_every_study_can_be_run() {
+    let mut files = Vec::new();
+    toml_files(Path::new(env!("CARGO_MANIFEST_DIR")), &mut files);
+    let (mut cases, mut studies) = (0, 0);
+    for file in &files {
+        let text = std::fs::read_to_string(file).expect("a file");
+        if text.lines().any(|line| line.starts_with("cases = ")) {
+            let study = Study::load(file).unwrap_or_else(|e| panic!("{e}"));
+            let folder = file.parent().expect("a folder");
+            let read = |name: &str| std::fs::read_to_string(folder.join(name));
+            let runs = plan(&study, &file.display().to_string(), &read).unwrap_or_else(|e| panic!("{e}"));
+            assert!(runs.len() > 1, "{}: {} runs", file.display(), runs.len());
+            studies += 1;
+        } else {
+            let loaded = case::load(file).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(loaded.warnings, Vec::<String>::new(), "{}", file.display());
+            cases += 1;
+        }
+    }
+    assert!(cases >= 8 && studies >= 15, "{cases} cases, {studies} studies");
+}
+
+#[test]
+fn the_cases_of_the_flume_differ_in_title_and_inclination() {
+    let of = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("flume").join(name);
+        case::load(&path).unwrap_or_else(|e| panic!("{e}")).case
+    };
+    let (mut steep, flat) = (of("40deg.toml"), of("23deg.toml"));
+    assert_eq!(steep.bodies[0].particle_spacing_m(&steep.grid), 0.005);
+    steep.title.clone_from(&flat.title);
+    steep.gravity.inclination_deg = 23.0;
+    assert_eq!(steep, flat);
 }

@@ -1,18 +1,18 @@
 //! Columns of sand that collapse in a channel, against the laws that two laboratories fitted to their experiments.
 //!
-//! The column rests between a smooth wall and a gate on a rough base; the gate vanishes. How far the front gets and what
-//! height is left depend on the aspect ratio a = h0/r0. The laws have no parameter for the grains, but differ with them: sand, rice
-//! and sugar run 1.2 a (Lube et al.), glass beads, which come to rest at 22 degrees, 1.8 a (Lajeunesse et al.). Ours are sand, and
-//! its run-out is judged by the first; experiments scatter by 15 % around it. Ours slide in simple shear at 0.515, the slope of a
-//! cone that has 31 degrees in plane strain, not at the experiments' tan(31 degrees) = 0.60, which is worth 17 % of a run-out that
-//! goes with 1/mu; together 22.5 %. Heights of the two laboratories differ by up to 13 %; the band is between them, and 15 %
-//! around. What the data are worth, and what ours are, is the validation `column_level`.
+//! The column rests between a smooth wall and a gate on a rough base; the gate vanishes. How far the front gets and what height is left
+//! depend on the aspect ratio a = h0/r0. The laws have no parameter for the grains, but differ with them: sand, rice and sugar run 1.2 a
+//! (Lube et al.), glass beads, which come to rest at 22 degrees, 1.8 a (Lajeunesse et al.). Ours are sand, and its run-out is judged by the
+//! first; experiments scatter by 15 % around it. Ours slide in simple shear at 0.515, the slope of a cone that has 31 degrees in plane
+//! strain, not at the experiments' tan(31 degrees) = 0.60. That is worth 17 % of a run-out that goes with 1/mu; together it is 22.5 %.
+//! Heights of the two laboratories differ by up to 13 %; the band is between them, and 15 % around. What the data are worth, and what ours
+//! are, is the validation `column_level`.
 //!
-//! What is found: by mass the front is 16 % short at a = 0.5 (1 % of the mass is a longer part of a low front) to 12 % too far at
-//! a = 6. By depth, the end of the last cell that holds half a cell of sand, it is 9 to 28 % too far, and its exponent from
-//! a = 0.5 to 2 is 1.09 or 1.13 instead of 1, depending on the order of sums alone: a few points decide it. So the depth stands in the
-//! table, and the front by mass is judged. Run-out grows with refinement (second table), and no grid is fine enough to say
-//! where to. A plane-strain channel has no side walls; wide channels have the larger exponent, 0.9.
+//! What is found: by mass the front is 16 % short at a = 0.5 (1 % of the mass is a longer part of a low front) to 12 % too far at a = 6. By
+//! depth, the end of the last cell that holds half a cell of sand, it is 9 to 28 % too far. Its exponent from a = 0.5 to 2 is 1.09 or 1.13
+//! instead of 1, depending on the order of sums alone: a few points decide it. So the depth stands in the table, and the front by mass is
+//! judged. Run-out grows with refinement (second table), and no grid is fine enough to say where to. A plane-strain channel has no side
+//! walls; wide channels have the larger exponent, 0.9.
 //!
 //! The front is where 1 % of the mass has passed, and, by another definition, where the deposit is a layer of points deep.
 //! Cells are r0/16 to r0/32, the cone is that of 31 degrees in plane strain, and the fill is stiff enough not to settle by its weight.

@@ -19,9 +19,15 @@ pub mod exactness;
 pub mod fall;
 pub mod fault;
 pub mod figure;
+pub mod files_body;
+pub mod files_rigid;
+pub mod from_file;
+pub mod invariance;
 pub mod manufactured;
 pub mod neo_hookean;
+pub mod other_codes;
 pub mod outflow;
+pub mod part;
 pub mod release;
 pub mod report;
 pub mod scene;
@@ -44,6 +50,9 @@ pub enum RungFailure {
     /// The solver gave up.
     #[error(transparent)]
     Step(Box<StepFailure>),
+    /// A case could not be run from its text to its files.
+    #[error("{0}")]
+    Files(String),
 }
 
 impl From<StepFailure> for RungFailure {
@@ -144,10 +153,14 @@ ladder! { $
     cantilever,
     neo_hookean,
     contact,
+    other_codes,
     wall_pressure,
+    files_body,
     fall,
     collapse,
     outflow,
+    files_rigid,
+    invariance,
     convergence,
 }
 

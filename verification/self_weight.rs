@@ -4,10 +4,9 @@
 //! number q = 0.087 of the soft column, small-strain elasticity would settle 2.8 % more. The column rests on a plane between
 //! smooth side walls; it settles with damping near critical until its kinetic energy is gone.
 //!
-//! The order of the stress is measured on a column five times as stiff. On the soft one the domains of uGIMP, which do not
-//! shrink with the points, come to overlap by up to q, and the stress scatters from point to point by 0.3 % of rho0 g L on
-//! any grid finer than 40 cells. The position on the stiff column is right to 0.03 % on all grids, too good for an order. The
-//! table of convergence shows all of it.
+//! The order of the stress is measured on a column five times as stiff. On the soft one the domains of uGIMP do not shrink with the points
+//! and come to overlap by up to q. The stress then scatters from point to point by 0.3 % of rho0 g L on any grid finer than 40 cells. The
+//! position on the stiff column is right to 0.03 % on all grids, too good for an order. The table of convergence shows all of it.
 
 use super::report::{named_csv, table_csv};
 use super::scene::{Brick, Material, THICKNESS, points_by_number, run_until, scene};

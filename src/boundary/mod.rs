@@ -2,16 +2,17 @@
 //!
 //! Material may leave a boundary but not press into it, and slides on it with Coulomb friction. A clamp holds material back
 //! as well, on the nodes nearest to its plane and behind it. [`Boundary`] is the geometry, [`nodes`] the law at a node,
-//! [`surface`] the law where the surface passes between nodes; `search` finds both, side by side (`side`).
+//! `surface` the law where the surface passes between nodes; `search` finds both, side by side (`side`).
 //!
 //! Elsewhere: rigid obstacles, and essential (Dirichlet) conditions at nodes: free slip, no slip, unilateral, fixed.
 
 pub mod nodes;
 pub mod search;
 mod side;
-pub mod slip;
-pub mod surface;
+pub(crate) mod slip;
+pub(crate) mod surface;
 
+use crate::seeded::{self, Seed};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use slip::SlipLaw;
@@ -282,7 +283,11 @@ impl Boundary {
         if self.released
             && let Some(Opening::Lift { speed, opening }) = self.opening
         {
-            let lifted = if speed.is_finite() { self.free_below + speed * dt } else { opening };
+            let lifted = if speed.is_finite() {
+                self.free_below + seeded::times(Seed::BoundaryLift, speed) * dt
+            } else {
+                opening
+            };
             self.free_below = lifted.min(opening);
             if self.free_below >= self.height() {
                 self.free_below = f64::INFINITY;

@@ -1,14 +1,14 @@
 //! The contact law at a node.
 //!
-//! A boundary answers the motion that a node would have without it: an impulse along its normal that stops approach and
-//! never holds back (but for a clamp), and one along its face that stops sliding, limited by the friction coefficient
-//! times the normal impulse. A node held by several boundaries finds all impulses together by projected Gauss-Seidel
-//! iteration (Jean 1999), so that a corner is no special case.
+//! A boundary answers the motion that a node would have without it. One impulse, along its normal, stops approach and never holds back (but
+//! for a clamp). The other, along its face, stops sliding, and is limited by the friction coefficient times the normal impulse. A node held
+//! by several boundaries finds all impulses together by projected Gauss-Seidel iteration (Jean 1999), so that a corner is no special case.
 //!
 //! Elsewhere: unilateral (Signorini) contact with Coulomb friction as a complementarity problem, in impulses. There is
 //! no warm start: impulses begin at zero in each step.
 
 use super::{Boundary, Contact, Friction};
+use crate::seeded::{self, Seed};
 use crate::space::{clockwise, dot, mean, minus, moment, plus, scaled};
 
 /// Most iterations for a node held by more than one boundary; perpendicular faces need two.
@@ -106,7 +106,7 @@ impl Hold {
             normal: contact.normal,
             along: contact.along,
             arm: minus(x, boundary.foot().into()),
-            friction: boundary.friction.coefficient(),
+            friction: seeded::times(Seed::BoundaryNodeFriction, boundary.friction.coefficient()),
             bonded: boundary.friction == Friction::Bonded,
             both_ways,
             clear: 0.0,
@@ -171,7 +171,7 @@ impl Hold {
         Tally {
             impulse,
             moment: moment(self.arm, impulse),
-            friction_work: t * dot(mean, clockwise(self.normal)),
+            friction_work: seeded::times(Seed::BoundaryNodeWork, t * dot(mean, clockwise(self.normal))),
             normal_work: n * dot(mean, self.normal),
         }
     }

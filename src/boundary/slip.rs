@@ -4,11 +4,13 @@
 //! grows with it in proportion and is the static coefficient where it is the slip length. Beyond the strength, slip is plastic. The
 //! strength falls from static to kinetic over one slip length of plastic slip, and is regained over one slip length of elastic slip.
 //!
-//! Sources: slip before sliding, Mindlin 1949; elastic slip over a length as a friction law of interfaces, Oden and Pires 1983, and with
-//! a stiffness in proportion to the pressure the *stiffness method* of general finite-element codes; 0.3 to 1 mm until sand slides on
-//! steel, Uesugi and Kishida 1986; linear slip weakening, Ida 1972, Palmer and Rice 1973.
+//! Sources: slip before sliding is in Mindlin 1949, and elastic slip over a length as a friction law of interfaces in Oden and Pires 1983.
+//! With a stiffness in proportion to the pressure it is the *stiffness method* of general finite-element codes. Sand on steel needs 0.3 to
+//! 1 mm until it slides (Uesugi and Kishida 1986). Linear slip weakening is in Ida 1972 and in Palmer and Rice 1973.
 //!
 //! Elsewhere: shear displacement to peak, elastic slip, penalty friction; breakdown or critical slip distance.
+
+use crate::seeded::{self, Seed};
 
 /// Friction that is mobilised by slip.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,11 +35,12 @@ pub struct Slipped {
 impl SlipLaw {
     /// Traction over pressure and elastic slip, 1/m.
     pub fn stiffness(&self) -> f64 {
-        self.peak / self.length
+        seeded::times(Seed::BoundarySlip, self.peak / self.length)
     }
 
     /// Largest traction over pressure of a contact that is worn so far (m).
     pub fn strength(&self, worn: f64) -> f64 {
+        let worn = if seeded::is(Seed::BoundaryWear) { 0.0 } else { worn };
         self.kinetic + (self.peak - self.kinetic) * (1.0 - worn / self.length).clamp(0.0, 1.0)
     }
 

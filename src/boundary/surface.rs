@@ -12,6 +12,7 @@ mod sliding;
 
 use super::Boundary;
 use super::nodes::{HoldState, Tally, work_along};
+use crate::seeded::{self, Seed};
 use crate::space::{clockwise, dot, mean, minus, moment, plus, scaled};
 use sliding::SiteSlip;
 
@@ -100,8 +101,8 @@ impl Site {
             tangent: side.tangent.into(),
             end: None,
             x,
-            arm: minus(x, foot),
-            friction: side.friction.coefficient(),
+            arm: minus(x, foot).map(|a| seeded::times(Seed::BoundaryArm, a)),
+            friction: seeded::times(Seed::BoundarySurfaceFriction, side.friction.coefficient()),
             slip: side.slip.map(SiteSlip::new),
             plate,
             free: 0.0,
@@ -264,7 +265,8 @@ impl Site {
         if self.state == HoldState::Apart {
             return [0.0; 2];
         }
-        let half = self.velocity(|k| scaled(minus(remapped(k), balance(k)), 0.5));
+        let half =
+            self.velocity(|k| scaled(minus(remapped(k), balance(k)), seeded::times(Seed::BoundarySurfaceWork, 0.5)));
         work_along(self.normal, self.vector_impulse(), half)
     }
 

@@ -1,9 +1,16 @@
 //! Rigid boundaries: the `[[boundaries]]` tables of a case file, and the same as types that cannot be inconsistent.
+//!
+//! A word that stands for itself is the solver's own enum, read by serde: shape function, scheme, cone, `boundary_contact`,
+//! `opened_volume`. A word that has numbers beside it is spelled twice: [`ContactKind`] becomes [`Friction`], [`OpeningKind`]
+//! [`Opening`], [`BoundaryKind`] [`Shape`]. In the file the numbers are keys of the same table, so that one that is missing, misspelt or
+//! out of place is reported on its own line, and serde cannot read an enum with fields out of a table that refuses unknown keys
+//! (`flatten` and `deny_unknown_fields` exclude each other). In the solver a variant holds its numbers, so that it cannot lack them.
 
 use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
 use crate::boundary::{Friction, Opening};
+use crate::seeded::{self, Seed};
 
 /// A rigid boundary. Which of its fields are required, and which refused, depends on `kind`, `contact` and `opening`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -35,7 +42,8 @@ pub struct Boundary {
     /// Thickness on the side away from the material. Default: four cells. Allowed: only with `kind = "wall"` or
     /// `"gate"`; 0 or more, and with `numerics.boundary_contact = "nodes"` at least three cells, a gate one. Example: `0.1`.
     pub thickness_m: Option<f64>,
-    /// Names of the bodies that it acts on. Default: all bodies. Allowed: at least one name of `[[bodies]]`. Example:
+    /// Names of the bodies that it acts on; bodies that no `[[contacts]]` names move as one, so what holds one of them holds all.
+    /// Default: all bodies. Allowed: at least one name of `[[bodies]]`. Example:
     /// `["sand"]`.
     pub bodies: Option<Vec<String>>,
     /// Contact law. Only a clamp holds back material that moves away. Example: `"coulomb"`.
@@ -164,8 +172,9 @@ impl Boundary {
     pub fn contact_law(&self) -> Option<Friction> {
         match self.contact {
             ContactKind::Smooth => Some(Friction::Smooth),
-            ContactKind::Coulomb => Some(Friction::Coulomb(self.friction?)),
+            ContactKind::Coulomb => Some(Friction::Coulomb(seeded::times(Seed::CaseFriction, self.friction?))),
             ContactKind::Rough => Some(Friction::Rough),
+            ContactKind::Bonded if seeded::is(Seed::CaseClamp) => Some(Friction::Rough),
             ContactKind::Bonded => Some(Friction::Bonded),
         }
     }
@@ -173,7 +182,8 @@ impl Boundary {
     /// Slip length (m) and static coefficient, where friction needs slip.
     pub fn slip(&self) -> Option<[f64; 2]> {
         let length = self.slip_length_m.filter(|l| *l > 0.0)?;
-        Some([length, self.static_friction.or(self.friction)?])
+        let given = self.static_friction.filter(|_| !seeded::is(Seed::CaseStaticFriction));
+        Some([length, given.or(self.friction)?])
     }
 
     /// Whether it acts on the body of this name.
@@ -194,10 +204,11 @@ impl Boundary {
     fn opening_law(&self) -> Option<Opening> {
         match self.opening.unwrap_or_default() {
             OpeningKind::Vanish => Some(Opening::Vanish),
+            OpeningKind::Lift if seeded::is(Seed::CaseLift) => Some(Opening::Vanish),
             OpeningKind::Lift => Some(Opening::Lift { speed: self.lift_speed_m_per_s?, opening: f64::INFINITY }),
             OpeningKind::Raise => Some(Opening::Lift {
                 speed: self.lift_speed_m_per_s.unwrap_or(f64::INFINITY),
-                opening: self.opening_m?,
+                opening: if seeded::is(Seed::CaseOpening) { f64::INFINITY } else { self.opening_m? },
             }),
         }
     }

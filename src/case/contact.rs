@@ -1,6 +1,13 @@
 //! Contact of two bodies: the `[[contacts]]` tables of a case file.
+//!
+//! The rules have words here and types in the solver, [`NormalKind`] and [`NormalRule`], [`GapKind`] and [`GapRule`], for the reason at the
+//! head of `boundary.rs`.
 
 use serde::{Deserialize, Serialize};
+
+use super::angle::direction;
+use crate::contact::rule::{GapRule, NormalRule};
+use crate::contact::separation::TOUCHING;
 
 /// The contact of two bodies. Bodies that no contact names stick to each other where they meet; a body that one names needs one
 /// with every other body. At most eight bodies are in contacts.
@@ -64,11 +71,37 @@ pub enum GapKind {
 
 impl BodyContact {
     /// Distance of the mean positions of bodies that touch, in cells, when none is given.
-    pub const DEFAULT_OFFSET_CELLS: f64 = 0.8;
+    pub const DEFAULT_OFFSET_CELLS: f64 = TOUCHING;
 
     /// Name of the structure, for `nearest_face`; `None` for a contact without bodies, which validation refuses.
     pub fn structure_name(&self) -> Option<&str> {
         self.structure.as_deref().or(self.bodies.first().map(String::as_str))
+    }
+
+    /// The word of the file with the keys beside it as one; `None` if a required key is missing, which validation refuses.
+    pub fn normal_rule(&self) -> Option<NormalRule> {
+        Some(match self.normal.unwrap_or_default() {
+            NormalKind::NearestFace => {
+                let second = self.structure_name() == self.bodies.get(1).map(String::as_str);
+                NormalRule::NearestFace(usize::from(second))
+            }
+            NormalKind::LargerBody => NormalRule::LargerBody,
+            NormalKind::Average => NormalRule::Average,
+            NormalKind::Regression => NormalRule::Regression,
+            NormalKind::Prescribed => NormalRule::Prescribed(direction(self.normal_deg?)),
+        })
+    }
+
+    /// The word of the file with the distance beside it.
+    pub fn gap_rule(&self) -> GapRule {
+        match self.gap.unwrap_or_default() {
+            GapKind::Extents => GapRule::Extents,
+            GapKind::Positions => {
+                GapRule::Positions { offset: self.offset_cells.unwrap_or(Self::DEFAULT_OFFSET_CELLS) }
+            }
+            GapKind::Displacements => GapRule::Displacements,
+            GapKind::Approach => GapRule::Approach,
+        }
     }
 
     pub(super) fn resolve(&mut self) {

@@ -1,6 +1,8 @@
 //! Plane geometry for the checks: rectangles, half spaces, and how deep one lies in the other.
 
-use super::boundary::{MaterialSide, Wall};
+use super::angle::direction;
+use super::boundary::{Boundary, MaterialSide, Shape, Wall};
+use super::grid::Grid;
 use super::schema::Body;
 
 /// A point or a direction, m.
@@ -17,23 +19,6 @@ pub struct Penetration {
 
 fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
-}
-
-/// Unit vector at this angle from the x axis; exact for multiples of 90 degrees.
-pub fn direction(angle_deg: f64) -> Point {
-    let quarter_turns = angle_deg / 90.0;
-    if quarter_turns.fract() == 0.0 {
-        match quarter_turns.rem_euclid(4.0) as u8 {
-            0 => [1.0, 0.0],
-            1 => [0.0, 1.0],
-            2 => [-1.0, 0.0],
-            _ => [0.0, -1.0],
-        }
-    } else {
-        let angle = angle_deg.to_radians();
-        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        [cos, sin]
-    }
 }
 
 fn rectangle(corner: Point, u: Point, length_u: f64, v: Point, length_v: f64) -> [Point; 4] {
@@ -68,8 +53,19 @@ impl Wall {
     }
 }
 
+impl Boundary {
+    /// How deep a body lies in it; `None` if a required field is missing, which validation refuses.
+    pub(super) fn penetration(&self, body: &Body, grid: &Grid) -> Option<Penetration> {
+        let corners = body.corners_m();
+        Some(match self.shape(grid)? {
+            Shape::Plane { point_m, normal_deg } => penetration_of_plane(&corners, point_m, normal_deg),
+            Shape::Wall(wall) | Shape::Gate(wall, _) => penetration_of_rectangle(&corners, &wall.corners_m()),
+        })
+    }
+}
+
 /// How deep the corners lie behind a plane; negative depth: nowhere.
-pub fn penetration_of_plane(corners: &[Point; 4], point_m: Point, normal_deg: f64) -> Penetration {
+fn penetration_of_plane(corners: &[Point; 4], point_m: Point, normal_deg: f64) -> Penetration {
     let normal = direction(normal_deg);
     let depth = |p: &Point| -dot([p[0] - point_m[0], p[1] - point_m[1]], normal);
     Penetration { depth_m: corners.iter().map(depth).fold(f64::NEG_INFINITY, f64::max), way_out: normal }

@@ -25,8 +25,8 @@ pub struct Material {
     /// Dilatancy angle. Default: `0.0`. Allowed: only with `law = "drucker_prager"`; from 0 to `friction_angle_deg`.
     /// Example: `5`.
     pub dilatancy_angle_deg: Option<f64>,
-    /// How the cone is matched to the Mohr-Coulomb angle. Default: `"triaxial_compression"`. Allowed: only with `law =
-    /// "drucker_prager"`. Example: `"plane_strain"`.
+    /// How the cone is matched to the Mohr-Coulomb angle. Default: `"plane_strain"`. Allowed: only with `law =
+    /// "drucker_prager"`. Example: `"triaxial_compression"`.
     pub cone: Option<Cone>,
     /// Largest mean tension. Default: `0.0`. Allowed: only with `law = "drucker_prager"`; 0 or more. Example: `100`.
     pub tension_cutoff_pa: Option<f64>,
@@ -36,6 +36,8 @@ pub struct Material {
 }
 
 /// Constitutive law.
+// A word, of which `run::scene` makes an `AnyLaw` with the numbers that the material has under keys of their own (see the head of
+// `boundary.rs`). The solver's enum has the moduli, the cone and what follows from them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]

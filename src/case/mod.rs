@@ -3,8 +3,17 @@
 //! [`load`] reads a file, [`parse`] a text. Both return a [`LoadedCase`] whose defaults are filled in, or a [`CaseError`]
 //! whose `Display` is the complete report for the user.
 //!
+//! **Words and rules.** A choice that is a word alone (cone, shape function, scheme) is the solver's enum, read as it is. One that needs
+//! numbers is spelt twice: as a word here, as [`ContactKind`], and as a variant with its numbers in the solver, as
+//! [`Friction`](crate::boundary::Friction). For in the file a number stands beside the word, under a key of its own that ends in its unit.
+//! So a number that is missing, out of range or beside the wrong word is refused by that key, with its line and a way out, and a study varies it as
+//! `boundaries.base.friction`. Read straight from the file, the solver's enum would be a table, `contact = { coulomb = 0.4 }`, and a mistake in it "no
+//! variant". The two meet in one place each: [`Boundary::contact_law`], `opening_law`, [`BodyContact::normal_rule`] and
+//! [`BodyContact::gap_rule`].
+//!
 //! Elsewhere: the input file (input deck).
 
+mod angle;
 mod boundary;
 mod contact;
 mod gauges;
@@ -28,10 +37,10 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
+pub use angle::direction;
 pub use boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide, OpeningKind, Shape, Wall};
 pub use contact::{BodyContact, GapKind, NormalKind};
 pub use gauges::{Gauges, Window};
-pub use geometry::direction;
 pub use grid::{Domain, Filling, Grid};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};

@@ -121,7 +121,7 @@ pub struct Body {
     #[serde(default)]
     pub integration: Integration,
     /// In which configuration its deformation is reckoned. Default: `"updated_lagrangian"`. Allowed: `"total_lagrangian"` only for a body
-    /// with `law = "neo_hookean"` in explicit steps, in `[[contacts]]` or the only one, with sides that are multiples of the
+    /// with `law = "neo_hookean"`, in `[[contacts]]` or the only one, with sides that are multiples of the
     /// distance of its particles, on which nothing acts but clamps that are planes along its edges. Example:
     /// `"total_lagrangian"`.
     #[serde(default)]
@@ -140,7 +140,8 @@ pub enum Integration {
     #[default]
     Explicit,
     /// Implicitly, together with its contacts: no limit, and more work per step. For stiff elastic bodies in `contacts` that only
-    /// clamps hold; bodies that deform much within half a cell of motion need short explicit steps anyhow.
+    /// clamps hold; bodies in `"updated_lagrangian"` kinematics that deform much within half a cell of motion need short explicit steps
+    /// anyhow.
     Implicit,
 }
 
@@ -249,7 +250,8 @@ pub struct Run {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
-    /// Time between VTK files; 0 writes none. Default: `0.02`. Allowed: 0 or more; at most 1e5 files in a run. Example:
+    /// Time between VTK files, and between the rows of `pressure_profile.csv` and `barrier_profile.csv`; 0 writes none of them.
+    /// Default: `0.02`. Allowed: 0 or more; at most 1e5 files in a run. Example:
     /// `0`.
     pub vtk_interval_s: f64,
 }
@@ -402,11 +404,12 @@ impl Case {
         self.bodies.iter().map(|body| body.particle_counts(&self.grid)).map(|[nx, ny]| nx * ny).sum()
     }
 
-    /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`.
-    /// Infinite if there is no body.
+    /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`. Waves in
+    /// bodies that move in implicit steps do not limit it. Infinite if there is no body.
     pub fn time_step_estimate_s(&self) -> f64 {
         let speed = |body: &Body| {
-            let wave = self.materials.get(&body.material).map_or(0.0, Material::p_wave_speed_m_per_s);
+            let explicit = self.materials.get(&body.material).filter(|_| body.integration == Integration::Explicit);
+            let wave = explicit.map_or(0.0, Material::p_wave_speed_m_per_s);
             wave + body.velocity_m_per_s[0].hypot(body.velocity_m_per_s[1])
         };
         let fastest = self.bodies.iter().map(speed).fold(0.0, f64::max);

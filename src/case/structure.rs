@@ -11,7 +11,8 @@ const TABLES: [&str; 9] =
 const TABLES_OF_STAGES: [&str; 3] = ["settle", "tilt", "run"];
 const LISTS: [&str; 3] = ["bodies", "boundaries", "contacts"];
 const LISTS_OF_GAUGES: [&str; 1] = ["windows"];
-const PAIRS: [&str; 7] = ["x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "window_x_m", "window_y_m"];
+const PAIRS: [&str; 8] =
+    ["origin_m", "x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "window_x_m", "window_y_m"];
 
 /// Tables, lists of tables and pairs of numbers of a case that are something else.
 pub fn misplaced(root: &DeTable<'_>) -> Vec<Problem> {

@@ -2,8 +2,11 @@
 
 use super::progress::remaining;
 use super::{ENDED_EARLY, load, say, tell, use_threads};
+use checkdam::case::Material;
+use checkdam::constitutive::{Cone, DruckerPrager, LinearElastic};
 use checkdam::run::scene;
 use checkdam::simulation::Simulation;
+use checkdam::theory::drucker_prager::plane_strain_angle;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -39,6 +42,7 @@ pub fn check(path: &Path, threads: Option<u16>) -> ExitCode {
         stages.run.end_time_s
     );
     say!("  memory {:.1} MB", sim.bytes() as f64 / 1e6);
+    case.materials.iter().filter_map(|(name, material)| strength(name, material)).for_each(|note| say!("  {note}"));
 
     let start = Instant::now();
     let mut trial = 0u32;
@@ -63,4 +67,45 @@ pub fn check(path: &Path, threads: Option<u16>) -> ExitCode {
         rayon::current_num_threads()
     );
     ExitCode::SUCCESS
+}
+
+/// What the cone of a granular material makes of its friction angle in plane flow: a note, and no warning. None for other materials.
+fn strength(name: &str, material: &Material) -> Option<String> {
+    let given = material.drucker_prager()?;
+    let [phi, psi] = [given.friction_angle_deg, given.dilatancy_angle_deg].map(f64::to_radians);
+    let elastic = LinearElastic::new(material.young_pa, material.poisson);
+    let law = DruckerPrager::new(elastic, given.cone, phi, psi, given.cohesion_pa, given.tension_cutoff_pa, true);
+    let acts = plane_strain_angle(law.friction, law.dilatancy).to_degrees();
+    let acts = if acts.is_finite() { format!("as {acts:.1} degrees") } else { "without limit".to_owned() };
+    let cone = match given.cone {
+        Cone::TriaxialCompression => "triaxial_compression\"",
+        Cone::TriaxialExtension => "triaxial_extension\"",
+        Cone::PlaneStrain => "plane_strain\", the default",
+        Cone::AsPrinted => "as_printed\"",
+    };
+    let angle = given.friction_angle_deg;
+    Some(format!("note: {angle} degrees of `{name}` act {acts} in plane strain (cone = \"{cone})"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_note_says_what_the_cone_makes_of_the_angle() {
+        let of = |keys: &str| {
+            let text =
+                format!("law = \"drucker_prager\"\ndensity_kg_per_m3 = 1500\nyoung_pa = 1e6\npoisson = 0.3\n{keys}");
+            strength("sand", &toml::from_str(&text).expect("a material")).expect("granular")
+        };
+        let default = of("friction_angle_deg = 31");
+        assert_eq!(
+            default,
+            "note: 31 degrees of `sand` act as 31.0 degrees in plane strain (cone = \"plane_strain\", the default)"
+        );
+        assert!(of("friction_angle_deg = 31\ncone = \"triaxial_compression\"").contains("act as 45.9 degrees"));
+        // Associated flow of the outer cone has no limit in plane strain from 36.9 degrees on.
+        let steep = "friction_angle_deg = 40\ndilatancy_angle_deg = 40\ncone = \"triaxial_compression\"";
+        assert!(of(steep).contains("act without limit"));
+    }
 }

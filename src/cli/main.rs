@@ -17,6 +17,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+// What is shipped has no switch for faults on purpose.
+#[cfg(not(debug_assertions))]
+const _: () = assert!(!checkdam::seeded::COMPILED);
+
 /// Exit code when a check failed.
 const CHECK_FAILED: u8 = 1;
 /// Exit code when the input is at fault, and nothing was computed.

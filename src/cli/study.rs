@@ -86,6 +86,12 @@ fn work_off(path: &Path, folder: &Path, threads: Option<u16>) -> Result<ExitCode
     });
     display.clear();
     let finished = finished?;
+    if let Some(aside) = runs.aside() {
+        say!(
+            "runs that stood there and that another build made, or that the study has no more, are kept in {}",
+            aside.display()
+        );
+    }
     say!("{} of {} runs are in {}", finished.rows, finished.total, table.display());
     if !finished.is_complete() {
         say!("the same command goes on where it stopped");

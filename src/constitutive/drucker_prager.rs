@@ -5,6 +5,7 @@
 
 use super::elastic::LinearElastic;
 use super::{Increment, Law, PointState};
+use crate::seeded::{self, Seed};
 use serde::{Deserialize, Serialize};
 
 /// How the cone is matched to the Mohr-Coulomb friction angle.
@@ -16,11 +17,11 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case")]
 pub enum Cone {
     /// Through the compression meridian ("outer cone"): q = 6 sin(phi) / (sqrt(3) (3 - sin(phi))).
-    #[default]
     TriaxialCompression,
     /// Through the extension meridian ("inner cone"): q = 6 sin(phi) / (sqrt(3) (3 + sin(phi))).
     TriaxialExtension,
     /// Equal to Mohr-Coulomb in plane strain at failure for the dilatancy angle given.
+    #[default]
     PlaneStrain,
     /// Ng et al., Eqs. 3-4, to the letter: q = 2 sin(phi) / (sqrt(3) (3 - sin(phi))) although it multiplies the mean stress
     /// and not the first invariant, and k = 2 sqrt(3) cos(phi) / (3 - sin(phi)) taken as pascals, without the cohesion.
@@ -85,9 +86,9 @@ impl DruckerPrager {
         let apex = if q > 0.0 { k / q } else { f64::INFINITY };
         Self {
             elastic,
-            friction: q,
-            dilatancy: q_psi,
-            cohesion: k,
+            friction: seeded::times(Seed::ConstitutiveCone, q),
+            dilatancy: seeded::times(Seed::ConstitutiveDilatancy, q_psi),
+            cohesion: seeded::times(Seed::ConstitutiveCohesion, k),
             tension_cutoff: tension_cutoff.min(apex),
             void_tracking,
         }

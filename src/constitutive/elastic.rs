@@ -3,6 +3,7 @@
 //! Elsewhere: hypoelasticity with an objective (corotational) rate.
 
 use super::{Increment, Law, PointState, Stress};
+use crate::seeded::{self, Seed};
 
 /// Isotropic linear elasticity in rate form: the Jaumann rate of the Cauchy stress is C : D.
 ///
@@ -18,7 +19,8 @@ pub struct LinearElastic {
 impl LinearElastic {
     /// From Young's modulus E > 0 (Pa) and Poisson's ratio -1 < nu < 1/2.
     pub fn new(young: f64, poisson: f64) -> Self {
-        Self { bulk: young / (3.0 * (1.0 - 2.0 * poisson)), shear: young / (2.0 * (1.0 + poisson)) }
+        let [bulk, shear] = [young / (3.0 * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson))];
+        Self { bulk: seeded::times(Seed::ConstitutiveBulk, bulk), shear: seeded::times(Seed::ConstitutiveShear, shear) }
     }
 
     /// Adds C : de for a volumetric increment that may differ from the trace of `d` (see the void tracking of Drucker-Prager).

@@ -8,6 +8,7 @@
 
 use super::logarithm::log1p;
 use super::{Finger, Increment, Law, PointState, Stress};
+use crate::seeded::{self, Seed};
 
 /// Neo-Hookean law with the stored energy mu/2 (tr b - 3) - mu ln J + lambda/2 (ln J)^2 per reference volume (Simo and Pister
 /// 1984): J sigma = mu (b - I) + lambda ln J I.
@@ -26,7 +27,7 @@ impl NeoHookean {
     /// From Young's modulus E > 0 (Pa) and Poisson's ratio -1 < nu < 1/2 at small strain.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self {
-            lame: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)),
+            lame: seeded::times(Seed::ConstitutiveLame, young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))),
             shear: young / (2.0 * (1.0 + poisson)),
         }
     }

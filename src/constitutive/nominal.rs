@@ -49,6 +49,26 @@ impl NeoHookean {
     }
 }
 
+impl NeoHookean {
+    /// Tangent dP/dF in a deformation, Pa: the change of P, row by row in the order of [`Nominal::stress`], with each component of F.
+    ///
+    /// With G = F^-T: `mu dF + (mu - lambda ln J) G dF^T G + lambda (G : dF) G`, which is symmetric.
+    #[inline]
+    pub fn tangent(&self, h: &Gradient) -> [[f64; 4]; 4] {
+        let &[a, b, c, d] = h;
+        let less_one = a + d + (a * d - b * c);
+        let per = 1.0 / (1.0 + less_one);
+        let g = [1.0 + d, -c, -b, 1.0 + a].map(|x| per * x);
+        let turned = self.shear - self.lame * log1p(less_one);
+        std::array::from_fn(|k| {
+            std::array::from_fn(|l| {
+                let same = if k == l { self.shear } else { 0.0 };
+                same + turned * g[k / 2 * 2 + l % 2] * g[l / 2 * 2 + k % 2] + self.lame * g[k] * g[l]
+            })
+        })
+    }
+}
+
 impl Finger {
     /// b - I = H + H^T + H H^T of a gradient of displacement.
     #[inline]
@@ -128,6 +148,28 @@ mod tests {
         // At rest the bound is 2 (lambda + mu), reached where the area changes alike in both directions.
         let rest = law().nominal(&[0.0; 4]).stiffness;
         assert!((rest - 2.0 * (law().lame + law().shear)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_tangent_is_the_slope_of_the_stress() {
+        let e = 1e-6;
+        for h in gradients() {
+            let (tangent, scale) = (law().tangent(&h), law().nominal(&h).stiffness);
+            for l in 0..4 {
+                let moved = |e: f64| {
+                    let mut h = h;
+                    h[l] += e;
+                    law().nominal(&h).stress
+                };
+                let (up, down) = (moved(e), moved(-e));
+                for k in 0..4 {
+                    let slope = (up[k] - down[k]) / (2.0 * e);
+                    // Of second order in a step that is a millionth, and what round-off leaves of a difference over it.
+                    assert!((slope - tangent[k][l]).abs() < 1e-8 * scale, "{h:?} {k} {l}: {slope} {}", tangent[k][l]);
+                    assert!((tangent[k][l] - tangent[l][k]).abs() <= 1e-15 * scale, "{h:?}: not symmetric");
+                }
+            }
+        }
     }
 
     #[test]

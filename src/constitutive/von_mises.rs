@@ -1,6 +1,8 @@
 //! Von Mises plasticity with hardening and viscosity.
 //!
 //! A law that hardens and depends on the rate is this much: one file and one line in `any.rs`.
+//!
+//! Elsewhere: J2 plasticity, Perzyna viscoplasticity.
 
 use super::{Increment, Law, LinearElastic, PointState};
 

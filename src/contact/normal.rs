@@ -38,24 +38,15 @@ impl Sample {
     }
 }
 
-/// How the normal is found from two samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GradientRule {
-    /// From the body that has more volume at the node.
-    Larger,
-    /// From both: the difference of their gradients.
-    Average,
+/// Unit normal out of body `a`, from the body that has more volume at the node; `least` (m2) is the size below which a gradient
+/// is noise. None where the bodies are mixed so well that neither has a side.
+pub fn from_larger(a: &Sample, b: &Sample, least: f64) -> Option<Vector> {
+    direction(if a.volume >= b.volume { a.gradient } else { b.gradient.map(|g| -g) }, least)
 }
 
-/// Unit normal out of body `a`; `least` (m2) is the size below which a gradient is noise. None where the bodies are mixed so
-/// well that neither has a side.
-pub fn from_gradients(rule: GradientRule, a: &Sample, b: &Sample, least: f64) -> Option<Vector> {
-    let out = match rule {
-        GradientRule::Larger if a.volume >= b.volume => a.gradient,
-        GradientRule::Larger => b.gradient.map(|g| -g),
-        GradientRule::Average => minus(a.gradient, b.gradient),
-    };
-    direction(out, least)
+/// The same from both: the difference of their gradients.
+pub fn from_difference(a: &Sample, b: &Sample, least: f64) -> Option<Vector> {
+    direction(minus(a.gradient, b.gradient), least)
 }
 
 /// Unit normal along the line from the mean position of `a` to that of `b`: coarse, for where nothing else is known.

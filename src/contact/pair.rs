@@ -4,6 +4,7 @@
 
 use super::Vector;
 use super::side::Side;
+use crate::seeded::{self, Seed};
 use crate::space::{clockwise, dot, minus, plus, scaled};
 
 /// How two bodies move at a node.
@@ -57,6 +58,7 @@ impl Exchange {
 impl Touch {
     /// Two bodies whose surfaces touch.
     pub fn new(sides: [usize; 2], normal: Vector, friction: f64) -> Self {
+        let friction = seeded::times(Seed::ContactFriction, friction);
         Self { sides, normal, friction, slack: 0.0, impulse: [0.0; 2], state: State::Apart }
     }
 
@@ -83,7 +85,7 @@ impl Touch {
         let relative = minus(sides[b].mean(), sides[a].mean());
         Exchange {
             impulse: self.vector_impulse(),
-            friction_work: t * dot(relative, clockwise(self.normal)),
+            friction_work: seeded::times(Seed::ContactWork, t * dot(relative, clockwise(self.normal))),
             normal_work: n * dot(relative, self.normal),
         }
     }

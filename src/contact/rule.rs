@@ -6,6 +6,7 @@ use super::Vector;
 use super::pair::Exchange;
 use super::separation::TOUCHING;
 use super::side::Side;
+use crate::seeded::{self, Seed};
 use crate::space::moment;
 
 /// How the normal between two bodies is found at a node.
@@ -79,7 +80,7 @@ impl ContactTally {
     /// Adds the exchange at a node at `x` (m).
     pub fn add(&mut self, exchange: &Exchange, x: Vector) {
         self.exchange.add(exchange);
-        self.moment += moment(x, exchange.impulse);
+        self.moment += seeded::times(Seed::ContactMoment, moment(x, exchange.impulse));
         self.nodes += 1;
     }
 

@@ -14,6 +14,7 @@
 
 use super::Vector;
 use super::normal::Sample;
+use crate::seeded::{self, Seed};
 use crate::space::{dot, minus};
 
 /// Share of a cell by which mean positions at a node are apart when two bodies with two points per cell and direction touch.
@@ -21,7 +22,7 @@ pub const TOUCHING: f64 = 0.8;
 
 /// Gap from mean positions, m: what their distance along the `normal` (out of `a`) exceeds `offset` cells of size `h` (m).
 pub fn from_positions(a: &Sample, b: &Sample, normal: Vector, offset: f64, h: f64) -> f64 {
-    dot(minus(b.mean(), a.mean()), normal) - offset * h
+    dot(minus(b.mean(), a.mean()), normal) - seeded::times(Seed::ContactTouching, offset) * h
 }
 
 /// Gap from mean displacements since the bodies touched, m; the samples' moments are those of displacements.
@@ -38,5 +39,5 @@ pub fn slack(gap: f64, dt: f64) -> f64 {
 /// two bodies there and V their sum, m2. It is thickness times h for a straight surface through the node (Nairn 2013; the
 /// paper's A_cell without its factor t, which its areas need and volumes do not).
 pub fn area(va: f64, vb: f64, h: f64) -> f64 {
-    (2.0 * (va + vb) * va.min(vb)).sqrt() / h
+    seeded::times(Seed::ContactArea, (2.0 * (va + vb) * va.min(vb)).sqrt()) / h
 }

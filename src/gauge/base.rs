@@ -1,5 +1,6 @@
 //! Force of a boundary on what lies on it: the base that holds a deposit.
 
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
 /// Means over a sampling interval, of what the boundary gives to the material.
@@ -35,8 +36,10 @@ impl BaseGauge {
     /// Reads the last step.
     pub fn after_step(&mut self, simulation: &Simulation) {
         let (b, t) = (&simulation.boundaries()[self.boundary], &simulation.step_tallies()[self.boundary]);
-        self.impulse[0] += t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y;
-        self.impulse[1] += self.along * (t.impulse[0] * b.tangent.x + t.impulse[1] * b.tangent.y);
+        let (normal, along) = (t.impulse[0] * b.normal.x + t.impulse[1] * b.normal.y, self.along);
+        self.impulse[0] += seeded::times(Seed::GaugeBaseNormal, normal);
+        self.impulse[1] +=
+            seeded::times(Seed::GaugeBase, along) * (t.impulse[0] * b.tangent.x + t.impulse[1] * b.tangent.y);
         self.duration += simulation.time_step().dt;
     }
 

@@ -1,18 +1,16 @@
-//! The points beside a face, found block by block: most blocks lie too far away and are left after one look.
+//! The points beside a face, found a few blocks at a time: most lie too far away and are left after one look.
 
 use crate::body::Block;
 use crate::boundary::Boundary;
-use crate::lanes::LANES;
+use crate::simulation::Simulation;
 
 /// A point beside a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Beside<'a> {
     /// Index of its body.
     pub body: usize,
-    /// Its block.
-    pub block: &'a Block,
-    /// Its lane.
-    pub lane: usize,
+    block: &'a Block,
+    lane: usize,
 }
 
 impl Beside<'_> {
@@ -20,21 +18,35 @@ impl Beside<'_> {
     pub fn x(&self) -> [f64; 2] {
         [self.block.x[0][self.lane], self.block.x[1][self.lane]]
     }
+
+    /// Its stress xx, yy, zz, xy, Pa.
+    pub fn stress(&self) -> [f64; 4] {
+        [0, 1, 2, 3].map(|k| self.block.stress[k][self.lane])
+    }
+
+    /// Its volume over that at the start.
+    pub fn volume_ratio(&self) -> f64 {
+        self.block.volume_ratio[self.lane]
+    }
 }
 
-/// The points of `blocks` (index of the body, block, number of real points) that lie behind the infinitely extended face, or in
-/// front of it by `reach` (m) at most, in the order of the blocks.
+/// The points of the `chosen` bodies, by index, that lie behind the infinitely extended face, or in front of it by `reach` (m) at
+/// most, in the order of the blocks.
 pub(super) fn beside<'a>(
+    simulation: &'a Simulation,
     face: &Boundary,
     reach: f64,
-    blocks: impl Iterator<Item = (usize, &'a Block, usize)>,
+    chosen: impl Fn(usize) -> bool + 'a,
 ) -> impl Iterator<Item = Beside<'a>> {
-    let (foot, normal) = (face.foot(), face.normal);
-    blocks.flat_map(move |(body, block, n)| {
-        // As Boundary::face_coordinates has it, to the last bit.
-        let distance = |l: usize| (block.x[0][l] - foot.x) * normal.x + (block.x[1][l] - foot.y) * normal.y;
-        let near: [bool; LANES] = std::array::from_fn(|l| distance(l) <= reach);
-        let real = if near.contains(&true) { n } else { 0 };
-        (0..real).filter(move |&lane| near[lane]).map(move |lane| Beside { body, block, lane })
+    let (foot, normal): ([f64; 2], [f64; 2]) = (face.foot().into(), face.normal.into());
+    // As Boundary::face_coordinates has it, to the last bit.
+    let distance = move |x: [f64; 2]| (x[0] - foot[0]) * normal[0] + (x[1] - foot[1]) * normal[1];
+    let near =
+        simulation.extents().iter().filter(move |e| distance(e.corner_against(normal)) <= reach && chosen(e.body));
+    near.flat_map(move |e| {
+        simulation.blocks_in(e).flat_map(move |(block, points)| {
+            let real = (0..points).filter(move |&l| distance([block.x[0][l], block.x[1][l]]) <= reach);
+            real.map(move |lane| Beside { body: e.body, block, lane })
+        })
     })
 }

@@ -1,6 +1,11 @@
 //! Means in the grid cells: a field of velocity and stress.
+//!
+//! Elsewhere: coarse graining, a projection of particles onto cells.
 
-use super::flow::{MAX_VOLUME_RATIO, flowing};
+use super::flow::{MAX_VOLUME_RATIO, flowing_blocks};
+use crate::body::{Block, Body};
+use crate::constitutive::Stress;
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
 /// One grid cell of a velocity field.
@@ -21,32 +26,31 @@ pub struct FieldCell {
 /// Means in the grid cells that hold material, column by column.
 pub fn velocity_field(simulation: &Simulation, barriers: &[usize]) -> Vec<FieldCell> {
     let h = simulation.spacing();
-    let mut points: Vec<_> = flowing(simulation, barriers)
-        .map(|(b, p)| {
-            let body = &simulation.bodies()[b];
-            let cell = ((p.x[0] / h).floor() as i64, (p.x[1] / h).floor() as i64);
-            (cell, body.point_mass, body.point_volume * p.volume_ratio.min(MAX_VOLUME_RATIO), p)
-        })
-        .collect();
+    let mut points: Vec<((i64, i64), &Block, usize, &Body)> = Vec::new();
+    flowing_blocks(simulation, barriers).for_each(|(b, block, n)| {
+        let cell = |l: usize| ((block.x[0][l] / h).floor() as i64, (block.x[1][l] / h).floor() as i64);
+        points.extend((0..n).map(|l| (cell(l), block, l, &simulation.bodies()[b])));
+    });
     points.sort_by_key(|p| p.0);
     points
         .chunk_by(|a, b| a.0 == b.0)
         .map(|cell| {
             let (mut mass, mut volume, mut momentum, mut pressure, mut shear) = (0.0, 0.0, [0.0; 2], 0.0, 0.0);
-            for (_, m, v, p) in cell {
+            for &(_, block, l, body) in cell {
+                let (m, [xx, yy, zz, xy]) = (body.point_mass, [0, 1, 2, 3].map(|k| block.stress[k][l]));
                 mass += m;
-                volume += v;
-                momentum[0] += m * p.v[0];
-                momentum[1] += m * p.v[1];
-                pressure -= m * p.state.stress.mean();
-                shear += m * p.state.plastic_shear;
+                volume += body.point_volume * block.volume_ratio[l].min(MAX_VOLUME_RATIO);
+                momentum[0] += m * block.v[0][l];
+                momentum[1] += m * block.v[1][l];
+                pressure -= m * Stress { xx, yy, zz, xy }.mean();
+                shear += m * block.plastic_shear[l];
             }
             let (i, j) = cell[0].0;
             FieldCell {
-                x: [(i as f64 + 0.5) * h, (j as f64 + 0.5) * h],
+                x: [(i as f64 + if seeded::is(Seed::GaugeField) { 0.0 } else { 0.5 }) * h, (j as f64 + 0.5) * h],
                 fill: volume / (h * h * simulation.thickness()),
                 v: [momentum[0] / mass, momentum[1] / mass],
-                pressure: pressure / mass,
+                pressure: seeded::times(Seed::GaugeFieldPressure, pressure / mass),
                 plastic_shear: shear / mass,
             }
         })

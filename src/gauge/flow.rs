@@ -1,7 +1,9 @@
 //! What flows, and how much motion is in it.
 
 use crate::body::{Block, Particle};
-use crate::simulation::Simulation;
+use crate::lanes::{LANES, Lane};
+use crate::seeded::{self, Seed};
+use crate::simulation::{Extent, Simulation};
 
 /// Points that have come apart count with at most this volume ratio in depths.
 pub(super) const MAX_VOLUME_RATIO: f64 = 1.5;
@@ -24,6 +26,14 @@ pub(super) fn flowing_blocks<'a>(
     barriers: &'a [usize],
 ) -> impl Iterator<Item = (usize, &'a Block, usize)> {
     simulation.blocks().filter(move |(body, ..)| !barriers.contains(body) && may_flow(simulation, *body))
+}
+
+/// The boxes of those blocks, in the same order.
+pub(super) fn flowing_extents<'a>(
+    simulation: &'a Simulation,
+    barriers: &'a [usize],
+) -> impl Iterator<Item = &'a Extent> {
+    simulation.extents().iter().filter(move |e| !barriers.contains(&e.body) && may_flow(simulation, e.body))
 }
 
 /// What flows, when it has not moved yet.
@@ -70,14 +80,21 @@ pub struct Motion {
 pub fn motion(simulation: &Simulation, chosen: impl Fn(usize) -> bool) -> Motion {
     let mut sum = Motion::default();
     simulation.blocks().filter(|(body, ..)| chosen(*body)).for_each(|(body, block, n)| {
-        let m = simulation.bodies()[body].point_mass;
-        for (vx, vy) in block.v[0][..n].iter().zip(&block.v[1][..n]) {
-            sum.mass += m;
-            sum.momentum[0] += m * vx;
-            sum.momentum[1] += m * vy;
-            sum.kinetic += 0.5 * m * (vx * vx + vy * vy);
-        }
+        let (m, [vx, vy]) = (simulation.bodies()[body].point_mass, &block.v);
+        // All lanes at once, and then added up in order.
+        let momentum: [Lane; 2] = [vx, vy].map(|v| v.map(|v| m * v));
+        let kinetic: Lane = std::array::from_fn(|l| 0.5 * m * (vx[l] * vx[l] + vy[l] * vy[l]));
+        let mut add = |n: usize| {
+            for l in 0..n {
+                sum.mass += m;
+                sum.momentum[0] += momentum[0][l];
+                sum.momentum[1] += momentum[1][l];
+                sum.kinetic += kinetic[l];
+            }
+        };
+        if n == LANES { add(LANES) } else { add(n) }
     });
+    sum.kinetic = seeded::times(Seed::GaugeKinetic, sum.kinetic);
     sum
 }
 

@@ -6,6 +6,7 @@
 //! height, so that material which has not arrived does not count.
 
 use super::beside::beside;
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
 /// Layers that are averaged.
@@ -18,19 +19,18 @@ pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
     let (nx, ny) = (b.normal.x, b.normal.y);
     let reach = LAYERS[2] as f64 * h;
     let mut near: Vec<Near> = Vec::new();
-    beside(b, reach, simulation.blocks()).for_each(|point| {
+    beside(simulation, b, reach, |_| true).for_each(|point| {
         let (d, s) = b.face_coordinates(point.x());
         if d < -h || s < 0.0 || s > b.height() {
             return;
         }
         let body = &simulation.bodies()[point.body];
-        let p = point.block.get(point.lane, 0);
-        let t = &p.state.stress;
-        let normal_stress = nx * nx * t.xx + ny * ny * t.yy + 2.0 * nx * ny * t.xy;
+        let [xx, yy, _, xy] = point.stress();
+        let normal_stress = nx * nx * xx + ny * ny * yy + 2.0 * nx * ny * xy;
         near.push(Near {
             bin: (s / h) as usize,
             distance: d,
-            compression_volume: -normal_stress * body.point_volume * p.volume_ratio,
+            compression_volume: -normal_stress * body.point_volume * point.volume_ratio(),
             spacing: body.point_spacing,
         });
     });
@@ -64,7 +64,7 @@ pub(super) fn sum(near: &[Near], h: f64) -> [f64; 3] {
             continue;
         }
         for (force, &layers) in force.iter_mut().zip(&LAYERS) {
-            let thickness = layers as f64 * n.spacing;
+            let thickness = seeded::times(Seed::GaugeLayer, layers as f64 * n.spacing);
             if n.distance < first - 0.5 * n.spacing + thickness {
                 *force += n.compression_volume / thickness;
             }

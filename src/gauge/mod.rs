@@ -14,7 +14,7 @@
 //! - [`wall_state`]: run-up, and what is behind.
 //! - [`PassageGauge`]: what has passed over, under and through a wall.
 //! - [`velocity_field`]: velocity and stress, cell by cell.
-//! - [`flow`]: what of all this flows.
+//! - `flow`: what of all this flows.
 //!
 //! Elsewhere: probes, sensors, load cells, history output, in-situ post-processing.
 
@@ -22,10 +22,11 @@ mod barrier;
 mod base;
 mod beside;
 mod field;
-pub mod flow;
+pub(crate) mod flow;
 mod front;
 pub(crate) mod layers;
 mod passage;
+mod peak;
 pub mod penetration;
 mod reaction;
 mod running;
@@ -37,11 +38,12 @@ mod two_bodies;
 mod wall_state;
 mod window;
 
-pub use barrier::{BarrierGauge, ForceSample, Peak, contact_impulse};
+pub use barrier::{BarrierGauge, ForceSample, contact_impulse};
 pub use base::{BaseGauge, BaseSample};
 pub use field::{FieldCell, velocity_field};
 pub use front::{FRONT_SHARE, Front, FrontGauge};
 pub use passage::{Passage, PassageGauge};
+pub use peak::Peak;
 pub use reaction::{Reaction, ReactionGauge};
 pub use running::RunningMean;
 pub use station::{StationGauge, StationSample};

@@ -1,18 +1,19 @@
 //! What passes a barrier, and on which way: over its crest, under its foot, or through it.
 //!
-//! A point has passed a wall when it lies more than a cell behind its face; on which way, is decided where it crossed the plane of the
-//! face, between the last place before it at which it was seen and the first one behind. So the gauge looks whenever a point may have
-//! moved by a quarter of a cell, and not when samples are taken. What comes back has not passed, and what lay behind the barrier
-//! when the gauge was opened does not count.
+//! A point has passed a wall when it lies more than a cell behind its face. On which way, is decided where it crossed the plane of the
+//! face: between the last place before it at which it was seen and the first one behind. So the gauge looks whenever a point may have moved
+//! by a quarter of a cell, and not when samples are taken. What comes back has not passed, and what lay behind the barrier when the gauge
+//! was opened does not count.
 //!
 //! Elsewhere: overtopping discharge, bypass, leakage.
 
 use super::flow::may_flow;
 use crate::boundary::Boundary;
-use crate::lanes::LANES;
-use crate::simulation::Simulation;
+use crate::seeded::{self, Seed};
+use crate::simulation::{Extent, Simulation};
 use crate::space::{dot, minus};
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// Way of a point between two looks, cells.
 const LOOK: f64 = 0.25;
@@ -43,6 +44,36 @@ enum Way {
 /// A point: body, and number within it.
 type Key = (usize, u32);
 
+/// What is known of points.
+type Points<T> = HashMap<Key, T, BuildHasherDefault<ByNumber>>;
+
+/// A place in a map by the numbers of a key. They are no text that someone has chosen, so that they need not be hidden.
+#[derive(Debug, Clone, Copy, Default)]
+struct ByNumber(u64);
+
+impl Hasher for ByNumber {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.write_u64(number.into());
+    }
+
+    fn write_usize(&mut self, number: usize) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        // Two to the 64th over the golden ratio: numbers that follow each other fall far apart.
+        self.0 = (self.0.rotate_left(32) ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}
+
 /// Follows what passes a wall.
 #[derive(Debug, Clone, Default)]
 pub struct PassageGauge {
@@ -51,8 +82,8 @@ pub struct PassageGauge {
     structures: Vec<usize>,
     /// Where points close to the face were seen last: distance before it, and position along it, m. For one behind the face, zero and
     /// where it crossed it.
-    seen: HashMap<Key, [f64; 2]>,
-    passed: HashMap<Key, Way>,
+    seen: Points<[f64; 2]>,
+    passed: Points<Way>,
     /// Farthest that a point may have moved since the last look, m.
     moved: f64,
 }
@@ -95,9 +126,10 @@ impl PassageGauge {
         }
         let mut passage = Passage::default();
         for ([over, under, through], body) in counts.into_iter().zip(simulation.bodies()) {
-            passage.over += f64::from(over) * body.point_mass;
-            passage.under += f64::from(under) * body.point_mass;
-            passage.past += f64::from(over + under + through) * body.point_mass;
+            let mass = seeded::times(Seed::GaugePassage, body.point_mass);
+            passage.over += f64::from(over) * mass;
+            passage.under += f64::from(under) * mass;
+            passage.past += f64::from(over + under + through) * mass;
         }
         passage
     }
@@ -109,13 +141,16 @@ impl PassageGauge {
         let distance = |x: [f64; 2]| dot(minus(x, foot), normal);
         let flows = |body: usize| may_flow(simulation, body) && !self.structures.contains(&body);
         let flowing: Vec<bool> = (0..simulation.bodies().len()).map(flows).collect();
-        for (body, block, ids, n) in simulation.numbered_blocks().filter(|(body, ..)| flowing[*body]) {
-            let d: [f64; LANES] = std::array::from_fn(|l| distance([block.x[0][l], block.x[1][l]]));
-            if d.iter().all(|d| *d > h) {
-                continue;
-            }
-            for l in (0..n).filter(|&l| d[l] <= h) {
-                self.see((body, ids[l]), d[l], b.face_coordinates([block.x[0][l], block.x[1][l]]).1, b, h);
+        let near = |e: &&Extent| flowing[e.body] && distance(e.corner_against(normal)) <= h;
+        for e in simulation.extents().iter().filter(near) {
+            for ((block, points), ids) in simulation.blocks_in(e).zip(simulation.ids_in(e)) {
+                for (l, id) in ids[..points].iter().enumerate() {
+                    let x = [block.x[0][l], block.x[1][l]];
+                    let d = distance(x);
+                    if d <= h {
+                        self.see((e.body, *id), d, b.face_coordinates(x).1, b, h);
+                    }
+                }
             }
         }
     }

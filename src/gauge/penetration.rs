@@ -6,6 +6,7 @@
 use super::beside::beside;
 use crate::boundary::{Boundary, Friction};
 use crate::contact::outline::{Outline, penetration};
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
 /// How deep the points of other bodies lie inside a structure.
@@ -65,8 +66,8 @@ pub fn of_boundaries(simulation: &Simulation) -> (f64, usize) {
     let solid = |b: &Boundary| !b.is_gone() && b.friction != Friction::Bonded;
     for (index, b) in simulation.boundaries().iter().enumerate().filter(|(_, b)| solid(b)) {
         // What lies in front of its face is in no boundary.
-        beside(b, 0.0, simulation.blocks().filter(|(body, ..)| b.acts_on(&[*body]))).for_each(|near| {
-            let depth = b.depth(near.x());
+        beside(simulation, b, 0.0, |body| b.acts_on(&[body])).for_each(|near| {
+            let depth = seeded::times(Seed::GaugePenetration, b.depth(near.x()));
             if depth > deepest.0 {
                 deepest = (depth, index);
             }

@@ -4,7 +4,7 @@
 //! The clamp carries the load less the inertia of the structure, so during an impact its reaction lags behind the contact
 //! force and overshoots it; at rest both are equal.
 
-use super::barrier::Peak;
+use super::peak::Peak;
 use crate::simulation::Simulation;
 
 /// Means over a sampling interval.

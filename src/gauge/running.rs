@@ -1,6 +1,9 @@
 //! The largest mean of a force over a length of time, from steps of whatever lengths.
+//!
+//! Elsewhere: a moving average, a boxcar (low-pass) filter.
 
-use super::barrier::Peak;
+use super::peak::Peak;
+use crate::seeded::{self, Seed};
 use std::collections::VecDeque;
 
 /// Follows the mean over the last `window` seconds, which ends with a step and begins within one: there its force counts for the part
@@ -36,7 +39,7 @@ impl RunningMean {
             return;
         }
         let share = ((start - t0) / (t1 - t0)).clamp(0.0, 1.0);
-        let mean = (before + impulse - (p0 + share * (p1 - p0))) / self.window;
+        let mean = (before + impulse - (p0 + share * (p1 - p0))) / seeded::times(Seed::GaugeRunning, self.window);
         if mean > self.peak.value {
             self.peak = Peak { value: mean, time: time - 0.5 * self.window };
         }
@@ -75,6 +78,31 @@ mod tests {
             assert!(peak.value <= 500.0 + 1e-9 && peak.value >= 500.0 - missed - 1e-9, "{dt}: {peak:?}");
         }
         assert!((of_pulse(1e-3).value - 500.0).abs() < 1e-9 && (of_pulse(1e-3).time - 0.04).abs() < 1e-9);
+    }
+
+    /// The largest mean over 20 ms of steps that end at these times (s) with these forces (N).
+    fn of_steps(steps: &[(f64, f64)]) -> Peak {
+        let (mut mean, mut before) = (RunningMean::new(0.02), 0.0);
+        for &(time, force) in steps {
+            mean.add(force * (time - before), time - before, time);
+            before = time;
+        }
+        mean.peak()
+    }
+
+    #[test]
+    fn unequal_steps_count_by_their_length_in_the_window() {
+        let is = |steps: &[(f64, f64)], value: f64, time: f64| {
+            let peak = of_steps(steps);
+            assert!((peak.value - value).abs() < 1e-12 && (peak.time - time).abs() < 1e-12, "{steps:?}: {peak:?}");
+        };
+        // Half of the first step of 16 ms, and all of the next of 12 ms: 8 and 12 of 20.
+        is(&[(0.016, 5.0), (0.028, 10.0)], 8.0, 0.018);
+        // One step that is longer than the window; a pulse at the end; less than a window, and nothing.
+        is(&[(0.05, 3.0)], 3.0, 0.04);
+        is(&[(0.03, 0.0), (0.031, 40.0)], 2.0, 0.021);
+        is(&[(0.019, 3.0)], 0.0, 0.0);
+        is(&[], 0.0, 0.0);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Depth and velocity of the flow at a place.
 
-use super::flow::{MAX_VOLUME_RATIO, flowing_blocks};
-use crate::simulation::Simulation;
+use super::flow::{MAX_VOLUME_RATIO, flowing_extents};
+use crate::seeded::{self, Seed};
+use crate::simulation::{Extent, Simulation};
 
 /// The flow at a station now.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,19 +27,22 @@ impl StationGauge {
         Self { x }
     }
 
-    /// What flows there now (see [`flowing`](super::flow::flowing)): of all bodies but `barriers`, by index.
+    /// What flows there now (see `flow::flowing`): of all bodies but `barriers`, by index.
     pub fn sample(&self, simulation: &Simulation, barriers: &[usize]) -> StationSample {
         let h = simulation.spacing();
         let (mut volume, mut mass, mut momentum) = (0.0, 0.0, 0.0);
-        flowing_blocks(simulation, barriers).for_each(|(body, block, n)| {
-            let body = &simulation.bodies()[body];
-            for l in (0..n).filter(|&l| (block.x[0][l] - self.x).abs() <= h) {
-                volume += body.point_volume * block.volume_ratio[l].min(MAX_VOLUME_RATIO);
-                mass += body.point_mass;
-                momentum += body.point_mass * block.v[0][l];
+        let near = |e: &&Extent| !(e.low[0] - self.x > h || self.x - e.high[0] > h);
+        flowing_extents(simulation, barriers).filter(near).for_each(|e| {
+            let body = &simulation.bodies()[e.body];
+            for (block, points) in simulation.blocks_in(e) {
+                for l in (0..points).filter(|&l| (block.x[0][l] - self.x).abs() <= h) {
+                    volume += body.point_volume * block.volume_ratio[l].min(MAX_VOLUME_RATIO);
+                    mass += body.point_mass;
+                    momentum += body.point_mass * block.v[0][l];
+                }
             }
         });
-        let area = 2.0 * h * simulation.thickness();
+        let area = seeded::times(Seed::GaugeStation, 2.0 * h) * simulation.thickness();
         let velocity = if mass > 0.0 { momentum / mass } else { 0.0 };
         StationSample { x: self.x, depth: volume / area, velocity }
     }

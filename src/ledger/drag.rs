@@ -1,5 +1,8 @@
 //! What forces that act throughout the material did in a step.
+//!
+//! Elsewhere: dissipative body forces, such as damping in proportion to mass (Rayleigh).
 
+use crate::seeded::{self, Seed};
 use crate::space::{dot, plus};
 
 /// Impulse and work of a distributed force on the material in one step.
@@ -15,7 +18,7 @@ impl Drag {
     /// Adds an impulse (N s) on what moves at `mean` (m/s), the mean of its velocities before and after.
     pub fn add(&mut self, impulse: [f64; 2], mean: [f64; 2]) {
         self.impulse = plus(self.impulse, impulse);
-        self.work += dot(impulse, mean);
+        self.work += seeded::times(Seed::LedgerWork, dot(impulse, mean));
     }
 
     /// Adds another drag.

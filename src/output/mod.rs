@@ -4,6 +4,7 @@
 
 mod atomic;
 mod error;
+mod number;
 mod pvd;
 mod table;
 mod vtk;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::vtk::escape;
 use super::{OutputError, write_text};
+use crate::seeded::{self, Seed};
 
 /// Writes a `.pvd` collection and rewrites it, whole, at every frame, so that it can be opened while the run goes on.
 #[derive(Debug)]
@@ -36,6 +37,7 @@ impl PvdWriter {
             return Err(OutputError::Name { path: self.path.clone(), name: file.to_owned(), reason });
         }
         let file = escape(file);
+        let time_s = seeded::times(Seed::OutputCollection, time_s);
         let _ =
             writeln!(self.entries, "    <DataSet timestep=\"{time_s}\" group=\"\" part=\"{part}\" file=\"{file}\"/>");
         self.rewrite()

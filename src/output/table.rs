@@ -1,11 +1,12 @@
 //! CSV tables: one header line, one row of numbers per line, an empty cell for "no value".
 
-use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::OutputError;
+use super::number::push_number;
+use crate::seeded::{self, Seed};
 
 /// Significant digits written.
 pub const DIGITS: usize = 9;
@@ -20,7 +21,11 @@ fn is_place(name: &str) -> bool {
 
 /// Significant digits of a value, of a place or not.
 fn digits(value: f64, place: bool) -> usize {
-    if place && value.abs() >= 1000.0 { PLACE_DIGITS } else { DIGITS }
+    match () {
+        () if seeded::is(Seed::OutputDigits) => 2,
+        () if place && value.abs() >= 1000.0 => PLACE_DIGITS,
+        () => DIGITS,
+    }
 }
 
 /// Bytes collected before they are handed to the file.
@@ -38,7 +43,6 @@ pub struct TableWriter {
     /// Which columns hold places, one for each.
     places: Vec<bool>,
     buffer: Vec<u8>,
-    scratch: String,
     /// Length of the file, always the end of a row.
     bytes: u64,
     /// Lines in the file, the header among them.
@@ -80,7 +84,6 @@ impl TableWriter {
             file,
             places: columns.iter().map(|name| is_place(name.as_ref())).collect(),
             buffer: header.into_bytes(),
-            scratch: String::new(),
             bytes: 0,
             lines: 0,
             pending: 1,
@@ -107,9 +110,7 @@ impl TableWriter {
             if k > 0 {
                 self.buffer.push(b',');
             }
-            self.scratch.clear();
-            push_number(&mut self.scratch, *value, digits(*value, *place));
-            self.buffer.extend_from_slice(self.scratch.as_bytes());
+            push_number(&mut self.buffer, *value, digits(*value, *place));
         }
         self.buffer.push(b'\n');
         self.pending += 1;
@@ -170,66 +171,6 @@ impl Drop for TableWriter {
     fn drop(&mut self) {
         let _ = self.flush();
     }
-}
-
-/// Appends `value`, rounded to `digits` significant digits, in the form described at [`TableWriter`].
-fn push_number(text: &mut String, value: f64, digits: usize) {
-    if value.is_nan() {
-        return;
-    }
-    if value.is_infinite() {
-        text.push_str(if value > 0.0 { "inf" } else { "-inf" });
-        return;
-    }
-    let start = text.len();
-    let _ = write!(text, "{value:.*e}", digits.saturating_sub(1));
-    let magnitude = value.abs();
-    if digits <= UNIQUE_DIGITS && (1e-5..0.9e15).contains(&magnitude) {
-        return plain(text, start);
-    }
-    let rounded: f64 = text[start..].parse().unwrap_or(value);
-    text.truncate(start);
-    let magnitude = rounded.abs();
-    let _ = if rounded == 0.0 {
-        write!(text, "0") // never "-0"
-    } else if (1e-5..1e15).contains(&magnitude) {
-        write!(text, "{rounded}")
-    } else {
-        write!(text, "{rounded:e}")
-    };
-}
-
-/// No two decimal numbers with so many significant digits are the same double, so that the shortest form of one is itself.
-const UNIQUE_DIGITS: usize = 15;
-
-/// Turns the number from byte `start` on, `d.ddde-x` with one digit before the point, into plain form without zeros at its end.
-fn plain(text: &mut String, start: usize) {
-    const DIGITS: usize = 17;
-    let (mut digits, mut count, mut exponent) = ([b'0'; DIGITS], 0, 0);
-    let (sign, number) = text[start..].strip_prefix('-').map_or((0, &text[start..]), |rest| (1, rest));
-    if let Some((mantissa, power)) = number.split_once('e') {
-        exponent = power.parse::<i32>().unwrap_or(0);
-        for digit in mantissa.bytes().filter(u8::is_ascii_digit).take(DIGITS) {
-            digits[count] = digit;
-            count += 1;
-        }
-    }
-    while count > 1 && digits[count - 1] == b'0' {
-        count -= 1;
-    }
-    text.truncate(start + sign);
-    let before = exponent + 1;
-    if before <= 0 {
-        text.push_str("0.");
-        (before..0).for_each(|_| text.push('0'));
-    }
-    for (k, digit) in (0..).zip(&digits[..count]) {
-        if k == before && before > 0 {
-            text.push('.');
-        }
-        text.push(char::from(*digit));
-    }
-    (count as i32..before).for_each(|_| text.push('0'));
 }
 
 /// A column as read: its values, or the line and text of its first cell that is not a number.

@@ -1,9 +1,9 @@
 use super::*;
 
 fn number(value: f64) -> String {
-    let mut text = String::new();
+    let mut text = Vec::new();
     push_number(&mut text, value, DIGITS);
-    text
+    String::from_utf8(text).unwrap()
 }
 
 #[test]
@@ -42,14 +42,14 @@ fn the_plain_form_is_that_of_the_rounded_number() {
         let power = 10f64.powi(k % 22 - 6);
         let value = if k % 3 == 0 { (share * 1000.0).round() * power } else { share * power };
         let value = if k % 2 == 0 { -value } else { value };
-        for digits in [1, 2, 6, 9, 12, 15] {
+        for digits in [1, 2, 6, 9, 12, 13, 15] {
             let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap();
             if !(1e-5..1e15).contains(&rounded.abs()) {
                 continue;
             }
-            let mut text = "x".to_owned();
+            let mut text = b"x".to_vec();
             push_number(&mut text, value, digits);
-            assert_eq!(text, format!("x{rounded}"), "{value:e} with {digits} digits");
+            assert_eq!(String::from_utf8(text).unwrap(), format!("x{rounded}"), "{value:e} with {digits} digits");
         }
     }
 }
@@ -57,9 +57,9 @@ fn the_plain_form_is_that_of_the_rounded_number() {
 #[test]
 fn seventeen_digits_keep_every_bit() {
     for value in [0.1, 1.0 / 3.0, 6.022e23, f64::MAX, f64::MIN_POSITIVE, 5e-324] {
-        let mut text = String::new();
+        let mut text = Vec::new();
         push_number(&mut text, value, 17);
-        assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits());
+        assert_eq!(String::from_utf8(text).unwrap().parse::<f64>().unwrap().to_bits(), value.to_bits());
     }
 }
 

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::{AtomicFile, OutputError};
+use crate::seeded::{self, Seed};
 
 /// Values of a field, asked for point by point so that any storage layout can be written without a copy.
 #[derive(Clone, Copy)]
@@ -38,7 +39,8 @@ impl Values<'_> {
             Values::Scalar(value) => out.write_all(&value(k).to_le_bytes()),
             Values::Vector(value) => {
                 let [x, y] = value(k);
-                [x, y, 0.0].iter().try_for_each(|v: &f64| out.write_all(&v.to_le_bytes()))
+                let [y, z] = seeded::exchanged(Seed::OutputVector, [y, 0.0]);
+                [x, y, z].iter().try_for_each(|v: &f64| out.write_all(&v.to_le_bytes()))
             }
             Values::SymmetricTensor(value) => value(k).iter().try_for_each(|v| out.write_all(&v.to_le_bytes())),
         }
@@ -85,7 +87,7 @@ pub fn write_points(
             return Err(OutputError::Name { path, name, reason: "a field name is not empty and stands once" });
         }
     }
-    let time = |_| time_s;
+    let time = |_| seeded::times(Seed::OutputTime, time_s);
     let index = |k: usize| k as i64;
     let end = |k: usize| k as i64 + 1;
     let mut file = PolyData::default();

@@ -56,6 +56,8 @@ pub struct Curves<'a> {
     pub x_title: &'a str,
     /// Title of the vertical axis, with its unit.
     pub y_title: &'a str,
+    /// What the values of the curves are multiplied with, for another unit than that of their columns: 1e3 for mm where they are in m.
+    pub y_times: f64,
     /// The curves.
     pub curves: &'a [Curve<'a>],
     /// The panels; none for one of all rows.
@@ -74,6 +76,7 @@ impl Curves<'static> {
         x: "",
         x_title: "",
         y_title: "",
+        y_times: 1.0,
         curves: &[],
         panels: &[],
         split: &[],
@@ -255,8 +258,10 @@ fn select(table: &Table, what: &Curves, panel: &Panel) -> Result<Vec<Drawn>, Plo
         for curve in what.curves {
             let y = table.column(curve.column)?;
             let own = rows.iter().filter(|k| keys[**k] == *set);
-            let points: Vec<_> =
-                own.map(|k| (map(x[*k]), map(y[*k]))).filter(|(a, b)| a.is_finite() && b.is_finite()).collect();
+            let points: Vec<_> = own
+                .map(|k| (map(x[*k]), map(what.y_times * y[*k])))
+                .filter(|(a, b)| a.is_finite() && b.is_finite())
+                .collect();
             // What should come out has one name, whatever is varied.
             let words = std::iter::once(curve.label).filter(|l| !l.is_empty());
             let split = set.iter().map(String::as_str).filter(|_| !curve.exact);

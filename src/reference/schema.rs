@@ -1,5 +1,6 @@
 //! A JSON schema of a file, and what it says about a key.
 
+use super::valid;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
@@ -51,42 +52,22 @@ impl Schema {
         (if table(node) { Shape::Table } else { Shape::Value }, node)
     }
 
-    /// What does not fit at `path`: keys that are not in the schema, and values of another type.
-    pub fn misfits(&self, node: &Value, value: &toml::Value, path: &str) -> Vec<String> {
-        let (shape, inner) = self.shape(node);
-        let tables: Vec<&toml::Value> = match (shape, value) {
-            (Shape::Value, _) => {
-                let fits = fits(inner, value);
-                return if fits { Vec::new() } else { vec![format!("{path} = {value}")] };
-            }
-            (Shape::List, toml::Value::Array(list)) => list.iter().collect(),
-            (Shape::Named, toml::Value::Table(tables)) => tables.iter().map(|(_, table)| table).collect(),
-            (_, other) => vec![other],
-        };
-        let mut misfits = Vec::new();
-        for table in tables {
-            let Some(table) = table.as_table() else {
-                misfits.push(format!("{path} is not a table"));
-                continue;
-            };
-            for (key, value) in table {
-                match inner["properties"].get(key) {
-                    Some(node) => misfits.extend(self.misfits(node, value, &format!("{path}.{key}"))),
-                    None => misfits.push(format!("{path}.{key} is not in the schema")),
-                }
-            }
-        }
-        misfits
+    /// What is not valid in a value at `path`, by a node of this schema.
+    pub fn faults(&self, node: &Value, value: &toml::Value, path: &str) -> Vec<String> {
+        let value = serde_json::to_value(value).expect("TOML has nothing that JSON has not, but for dates");
+        valid::faults(&self.0, node, &value, path)
     }
 
-    /// The node of a field that a study names by its path, `boundaries.gate.opening`.
+    /// The node of a field that a study names by its path, `boundaries.gate.opening`, or of an element of a list, `boundaries.gate`.
     pub fn at_path(&self, path: &str) -> Option<&Value> {
         let mut node = &self.0;
         let mut words = path.split('.');
         while let Some(word) = words.next() {
             node = self.shape(node).1.get("properties")?.get(word)?;
-            if matches!(self.shape(node).0, Shape::List | Shape::Named) && words.clone().next().is_some() {
-                words.next();
+            if let (Shape::List | Shape::Named, inner) = self.shape(node)
+                && words.next().is_some()
+            {
+                node = inner;
             }
         }
         Some(node)
@@ -103,25 +84,6 @@ pub fn words(node: &Value) -> Vec<(String, String)> {
 pub fn plain(node: &Value) -> String {
     let text = node.get("description").and_then(Value::as_str).unwrap_or_default();
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn fits(node: &Value, value: &toml::Value) -> bool {
-    let words = words(node);
-    if !words.is_empty() {
-        return value.as_str().is_some_and(|text| words.iter().any(|(word, _)| word == text));
-    }
-    match (node.get("type").and_then(Value::as_str), value) {
-        (None, _) | (Some("boolean"), toml::Value::Boolean(_)) | (Some("string"), toml::Value::String(_)) => true,
-        (Some("number"), toml::Value::Float(_) | toml::Value::Integer(_)) => true,
-        (Some("integer"), toml::Value::Integer(number)) => *number >= 0,
-        (Some("object"), toml::Value::Table(_)) => true,
-        (Some("array"), toml::Value::Array(list)) => {
-            let count = node.get("minItems").and_then(Value::as_u64);
-            count.is_none_or(|count| list.len() as u64 == count)
-                && node.get("items").is_none_or(|item| list.iter().all(|value| fits(item, value)))
-        }
-        _ => false,
-    }
 }
 
 /// Takes out null, which TOML does not have, and Rust's names of number formats.

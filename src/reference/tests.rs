@@ -4,9 +4,7 @@ use super::markdown::{Field, Section, page, sections};
 use super::schema::{Schema, Shape};
 use crate::case::{self, Case};
 use crate::study::Study;
-use serde_json::Value;
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const CASE_HEAD: &str = "\
 # Keys of a case file
@@ -36,15 +34,15 @@ names the [schema](study.schema.json), relative to the file: `#:schema ../../../
 This page is made from the doc comments in `src/study`; `cargo reference` writes it anew.
 ";
 
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn case_schema() -> Schema {
+pub fn case_schema() -> Schema {
     Schema::of::<Case>("checkdam case")
 }
 
-fn study_schema() -> Schema {
+pub fn study_schema() -> Schema {
     Schema::of::<Study>("checkdam study")
 }
 
@@ -131,13 +129,13 @@ fn every_example_is_a_value_of_its_key() {
         for (section, field) in values(&sections(&schema)) {
             let what = format!("{name}: {} {} = {}", section.header, field.key, field.example);
             let value = literal(&field.example).unwrap_or_else(|| panic!("{what} is not TOML"));
-            assert_eq!(schema.misfits(&field.node, &value, &what), Vec::<String>::new());
+            assert_eq!(schema.faults(&field.node, &value, &what), Vec::<String>::new());
         }
     }
 }
 
 /// Everything that has a default, and nothing else, but where another key requires it.
-const SMALL: &str = r#"
+pub const SMALL: &str = r#"
     title = "defaults"
     gravity = { inclination_deg = 10 }
     grid = { spacing_m = 0.1, thickness_m = 1 }
@@ -198,81 +196,4 @@ fn all_or_empty<'a>(value: &'a toml::Value, header: &str, count: usize) -> Vec<O
     let mut found: Vec<_> = tables(value, header).into_iter().map(Some).collect();
     found.resize(count, None);
     found
-}
-
-fn toml_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            files.extend(toml_files(&path));
-        } else if path.extension().is_some_and(|end| end == "toml") && !path.ends_with("Cargo.toml") {
-            files.push(path);
-        }
-    }
-    files.sort();
-    files
-}
-
-#[test]
-fn every_key_of_the_shipped_files_is_in_the_schema() {
-    let (case, study) = (case_schema(), study_schema());
-    let (mut cases, mut studies, mut paths) = (0, 0, BTreeSet::new());
-    for file in ["validation", "examples"].iter().flat_map(|folder| toml_files(&root().join(folder))) {
-        let text = std::fs::read_to_string(&file).expect("a file");
-        let value: toml::Value = toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-        let is_study = value.get("cases").is_some();
-        let schema = if is_study { &study } else { &case };
-        let misfits = schema.misfits(&schema.0, &value, &file.display().to_string());
-        assert_eq!(misfits, Vec::<String>::new());
-        if is_study {
-            studies += 1;
-            paths.extend(paths_of(&Study::load(&file).unwrap_or_else(|e| panic!("{e}"))));
-        } else {
-            cases += 1;
-            let loaded = case::load(&file).unwrap_or_else(|e| panic!("{e}"));
-            assert_eq!(loaded.warnings, Vec::<String>::new());
-        }
-    }
-    assert!(cases >= 8 && studies >= 15 && paths.len() >= 20, "{cases} cases, {studies} studies, {paths:?}");
-    for path in paths {
-        assert!(case.at_path(&path).is_some(), "a study names `{path}`, which no case has");
-    }
-}
-
-/// Every path in a case that a study names.
-fn paths_of(study: &Study) -> Vec<String> {
-    let mut tables = vec![&study.base.set, &study.base.append];
-    let mut paths = study.base.unset.clone();
-    for variant in &study.variants {
-        tables.extend([&variant.set, &variant.append]);
-        paths.extend_from_slice(&variant.unset);
-    }
-    for axis in &study.axes {
-        paths.extend_from_slice(&axis.fields);
-        tables.extend(axis.levels.iter().map(|level| &level.set));
-        paths.extend(axis.levels.iter().flat_map(|level| level.unset.clone()));
-    }
-    if let Some(sample) = &study.sample {
-        paths.extend(sample.ranges.iter().flat_map(|range| range.fields.clone()));
-        for option in sample.choices.iter().flat_map(|choice| &choice.options) {
-            tables.push(&option.set);
-            paths.extend_from_slice(&option.unset);
-        }
-    }
-    paths.extend(tables.into_iter().flat_map(|table| table.keys().cloned()));
-    paths
-}
-
-#[test]
-fn a_file_that_does_not_fit_is_found_out() {
-    let schema = case_schema();
-    let misfits = |text: &str| schema.misfits(&schema.0, &toml::from_str(text).expect("TOML"), "file");
-    assert_eq!(misfits("title = \"a\"\n[grid]\nspacing_m = 1\n[materials.sand]\nlaw = \"neo_hookean\""), [""; 0]);
-    for wrong in ["titel = \"a\"", "[grid]\nspacing = 1", "[materials.sand]\nlaw = \"x\"", "[domain]\nx_m = [1]"] {
-        assert_eq!(misfits(wrong).len(), 1, "{wrong}");
-    }
-    assert!(schema.at_path("boundaries.gate.opening").is_some() && schema.at_path("boundaries.gate.open").is_none());
-    assert_eq!(schema.0["required"].as_array().map(Vec::len), Some(7), "{}", schema.0["required"]);
-    assert!(!Value::to_string(&schema.0).contains("\"null\""));
 }

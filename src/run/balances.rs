@@ -2,6 +2,7 @@
 
 use super::records::{MomentumRow, Records};
 use crate::ledger::EnergyBalance;
+use crate::seeded::{self, Seed};
 use serde::Serialize;
 
 /// Energy at the end, as shares of the energy at release. Its level of zero is the barrier's foot, or the lowest corner of what flows as it is
@@ -46,7 +47,7 @@ pub struct EnergyResults {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct MomentumResults {
-    /// Sum of the magnitudes of all impulses, N s.
+    /// Sum of the magnitudes along the axes of the impulses of contacts, gravity and boundaries, N s.
     pub impulse_scale_n_s: f64,
     /// Largest residual at any time over that scale.
     pub momentum_closure_1: f64,
@@ -78,7 +79,8 @@ pub(super) fn energy(records: &Records) -> EnergyResults {
     let Some(last) = records.energy.last() else { return results };
     let e = &last.balance;
     results.initial_j = e.initial;
-    results.released_j = records.energy.iter().map(|r| r.balance.released()).fold(0.0, f64::max);
+    let released = records.energy.iter().map(|r| r.balance.released()).fold(0.0, f64::max);
+    results.released_j = seeded::times(Seed::RunReleased, released);
     if results.released_j > 0.0 {
         let residuals = records.energy.iter().map(|r| r.balance.residual.abs());
         results.residual_of_released_1 = residuals.fold(0.0, f64::max) / results.released_j;
@@ -91,9 +93,9 @@ pub(super) fn energy(records: &Records) -> EnergyResults {
     results.gravitational_1 = share(e.gravitational);
     results.elastic_1 = share(e.elastic);
     results.plastic_1 = share(e.plastic);
-    results.friction_1 = share(e.friction.iter().sum());
-    results.impact_1 = share(e.contact.iter().sum());
-    results.pic_1 = share(e.pic);
+    let lost = [&e.friction, &e.contact].map(|by| share(by.iter().sum()));
+    [results.friction_1, results.impact_1] = seeded::exchanged(Seed::RunShares, lost);
+    results.pic_1 = seeded::times(Seed::RunPicShare, share(e.pic));
     results.side_walls_1 = share(e.side_walls);
     results.outflow_1 = share(e.outflow);
     results.residual_end_1 = share(e.residual);

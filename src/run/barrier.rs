@@ -1,11 +1,12 @@
 //! What a run says of the force on a barrier.
 
 use super::means::{arrival, impulse, late_mean, smoothed_peak, time_to_static};
+use super::note::Kind;
+use super::passage::FrontPassage;
 use super::records::HistoryRow;
 use super::scales::Scales;
-use super::summary::FrontPassage;
-use super::verdict::Kind;
 use crate::gauge::BarrierGauge;
+use crate::seeded::{self, Seed};
 use serde::Serialize;
 
 /// Time after arrival over which the impulse of the impact is taken, s.
@@ -86,7 +87,12 @@ pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow], scales: &Sca
     let last = history.last()?;
     let late = |value: fn(&HistoryRow) -> f64| late_mean(history, 0.0, 1.0, value);
     let static_force = late(|r| r.normal);
-    let static_moment = late(|r| r.moment);
+    let static_moment = seeded::times(Seed::RunMoment, late(|r| r.moment));
+    let thirds = [late_mean(history, 2.0 / 3.0, 1.0, |r| r.normal), late_mean(history, 0.0, 1.0 / 3.0, |r| r.normal)];
+    let [last_third, first_third] = seeded::exchanged(Seed::RunDrift, thirds);
+    let [layer1, layer3] = seeded::exchanged(Seed::RunLayers, [late(|r| r.layers[0]), late(|r| r.layers[2])]);
+    let [along_normal, along_face] = seeded::exchanged(Seed::RunImpulses, gauge.total_impulse());
+    let [over, under] = seeded::exchanged(Seed::RunOvertopped, [last.passage.over, last.passage.under]);
     let peak = smoothed_peak(history);
     let arrival = arrival(history, scales.arrival_force_n);
     Some(BarrierResults {
@@ -99,24 +105,27 @@ pub(super) fn results(gauge: &BarrierGauge, history: &[HistoryRow], scales: &Sca
         peak_20ms_alpha_1: None,
         elastic_impact_n: None,
         static_force_n: static_force,
-        static_shear_n: late(|r| r.tangential),
-        static_force_drift_n: late_mean(history, 2.0 / 3.0, 1.0, |r| r.normal)
-            - late_mean(history, 0.0, 1.0 / 3.0, |r| r.normal),
-        static_layer1_n: late(|r| r.layers[0]),
+        static_shear_n: seeded::times(Seed::RunShear, late(|r| r.tangential)),
+        static_force_drift_n: last_third - first_third,
+        static_layer1_n: layer1,
         static_layer2_n: late(|r| r.layers[1]),
-        static_layer3_n: late(|r| r.layers[2]),
+        static_layer3_n: layer3,
         base_shear_n: static_force,
         static_moment_n_m: static_moment,
-        static_height_of_action_m: if static_force > 0.0 { static_moment / static_force } else { 0.0 },
-        peak_moment_n_m: gauge.peak_moment().value,
+        static_height_of_action_m: if static_force > 0.0 {
+            seeded::times(Seed::RunAction, static_moment / static_force)
+        } else {
+            0.0
+        },
+        peak_moment_n_m: seeded::times(Seed::RunPeakMoment, gauge.peak_moment().value),
         time_to_static_s: time_to_static(history, static_force),
         impulse_half_second_n_s: arrival.map_or(0.0, |t| impulse(history, t, t + IMPACT_WINDOW)),
-        impulse_normal_n_s: gauge.total_impulse()[0],
-        impulse_tangential_n_s: gauge.total_impulse()[1],
-        run_up_m: history.iter().map(|r| r.run_up).fold(0.0, f64::max),
+        impulse_normal_n_s: along_normal,
+        impulse_tangential_n_s: along_face,
+        run_up_m: seeded::times(Seed::RunRunUp, history.iter().map(|r| r.run_up).fold(0.0, f64::max)),
         run_up_p95_m: history.iter().map(|r| r.run_up_p95).fold(0.0, f64::max),
-        overtopped_kg: last.passage.over,
-        passed_under_kg: last.passage.under,
+        overtopped_kg: over,
+        passed_under_kg: under,
         passed_kg: last.passage.past,
     })
 }
@@ -127,8 +136,9 @@ impl BarrierResults {
         let (v, area) = (front.velocity_m_per_s, front.depth_m * width);
         let per_speed = scales.flow_density_kg_per_m3 * v * area;
         if v > 0.0 && area > 0.0 {
-            self.peak_20ms_alpha_1 = Some(self.peak_20ms_by_steps_n / (per_speed * v));
-            self.elastic_impact_n = Some(per_speed * scales.flow_wave_speed_m_per_s);
+            let alpha = self.peak_20ms_by_steps_n / (per_speed * v);
+            self.peak_20ms_alpha_1 = Some(seeded::times(Seed::RunAlpha, alpha));
+            self.elastic_impact_n = Some(seeded::times(Seed::RunElastic, per_speed * scales.flow_wave_speed_m_per_s));
         }
     }
 

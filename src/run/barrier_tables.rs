@@ -7,6 +7,7 @@ use super::table::{Names, OpenTable, flush, optional};
 use crate::gauge::StructureSample;
 use crate::gauge::structure::ProfilePoint;
 use crate::output::OutputError;
+use crate::seeded::{self, Seed};
 use std::path::Path;
 
 /// The open tables of a barrier, and what was written into them.
@@ -89,6 +90,9 @@ impl Recorder for BarrierTables {
 
     fn outline(&mut self, time: f64, points: &[[f64; 2]]) -> Result<(), OutputError> {
         let Some(table) = &mut self.outline else { return Ok(()) };
-        points.iter().try_for_each(|x| table.row(&[time, x[0], x[1]]))
+        points
+            .iter()
+            .map(|x| seeded::exchanged(Seed::TablesOutline, *x))
+            .try_for_each(|[x, y]| table.row(&[time, x, y]))
     }
 }

@@ -1,5 +1,7 @@
 //! When rows are read: those that numbers with a name come from, and those of the tables.
 
+use crate::seeded::{self, Seed};
+
 /// Rows a second that everything with a name in `summary.toml` comes from. They are no setting: a peak over 20 ms, an impulse or a time
 /// to rest must not depend on how fine the tables are. Where steps are longer, a row is a step.
 pub(super) const METER_HZ: f64 = 1000.0;
@@ -19,7 +21,7 @@ pub(super) struct Clock {
 impl Clock {
     /// So many rows a second, from zero on.
     pub fn new(rate_hz: f64) -> Self {
-        Self { interval: 1.0 / rate_hz, rows: 0, ledgers: 0 }
+        Self { interval: seeded::times(Seed::RunClock, 1.0 / rate_hz), rows: 0, ledgers: 0 }
     }
 
     /// Whether a step that ended at `time` (s) ends a row.

@@ -4,6 +4,7 @@ use super::records::{EnergyRow, HistoryRow, MomentumRow};
 use super::table::{Column, Group, Per, TableKind, TableText};
 use crate::gauge::structure::ProfilePoint;
 use crate::gauge::{FieldCell, StationSample, StructureSample};
+use crate::seeded::{self, Seed};
 use crate::simulation::ContactPoint;
 
 /// All tables of a run with all their columns.
@@ -34,30 +35,69 @@ macro_rules! columns {
     };
 }
 
+// Numbers that stand side by side, as a seeded fault exchanges them.
+
+fn layers(r: &HistoryRow) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesLayers, [r.layers[0], r.layers[2]])
+}
+
+fn base(r: &HistoryRow) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesBase, [r.base.normal, r.base.friction])
+}
+
+fn front(r: &HistoryRow) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesFront, [r.front.velocity, r.front.depth])
+}
+
+fn window(r: &HistoryRow) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesWindow, [r.window.mean, r.window.p95])
+}
+
+fn lost(r: &EnergyRow, k: usize) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesEnergy, [r.balance.friction[k], r.balance.contact[k]])
+}
+
+fn gravity(r: &MomentumRow) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesGravity, r.ledger.gravity)
+}
+
+fn outflow(r: &MomentumRow) -> f64 {
+    let out = r.ledger.departed_momentum[0];
+    if seeded::is(Seed::TablesOutflow) { out } else { -out }
+}
+
+fn traction(r: &Touching) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesTraction, r.2.traction(r.1))
+}
+
+fn moving(r: &(f64, FieldCell)) -> [f64; 2] {
+    seeded::exchanged(Seed::TablesField, r.1.v)
+}
+
 const SAMPLE_TIME: &[Column<HistoryRow>] = columns![HistoryRow;
     "time_s", "s", "end of the sample's interval, after release; forces are means over the interval", |r, _| r.time;
 ];
 
 const SAMPLE_FORCES: &[Column<HistoryRow>] = columns![HistoryRow;
-    "force_normal_n", "N", "force against the barrier's face, positive when the material pushes; its base shear", |r, _| r.normal;
-    "force_tangential_n", "N", "force along the face, positive towards the crest, negative when the material drags it down", |r, _| r.tangential;
-    "overturning_moment_n_m", "N m", "moment about the foot, positive when the material pushes the barrier over", |r, _| r.moment;
+    "force_normal_n", "N", "force against the barrier's face, positive when the material pushes; its base shear", |r, _| seeded::times(Seed::TablesNormal, r.normal);
+    "force_tangential_n", "N", "force along the face, positive towards the crest, negative when the material drags it down", |r, _| seeded::times(Seed::TablesShear, r.tangential);
+    "overturning_moment_n_m", "N m", "moment about the foot, positive when the material pushes the barrier over", |r, _| seeded::times(Seed::TablesMoment, r.moment);
     "force_normal_max_n", "N", "largest normal force of a single step in the interval", |r, _| r.normal_max;
-    "force_layer1_n", "N", "normal force from the stress of the nearest layer of material points", |r, _| r.layers[0];
+    "force_layer1_n", "N", "normal force from the stress of the nearest layer of material points", |r, _| layers(r)[0];
     "force_layer2_n", "N", "the same from the nearest two layers", |r, _| r.layers[1];
-    "force_layer3_n", "N", "the same from the nearest three layers", |r, _| r.layers[2];
+    "force_layer3_n", "N", "the same from the nearest three layers", |r, _| layers(r)[1];
 ];
 
 const SAMPLE_BASE: &[Column<HistoryRow>] = columns![HistoryRow;
-    "base_normal_n", "N", "force of the base on the material along its normal", |r, _| r.base.normal;
-    "base_friction_n", "N", "force of the base on the material along it, positive where the flow runs", |r, _| r.base.friction;
+    "base_normal_n", "N", "force of the base on the material along its normal", |r, _| base(r)[0];
+    "base_friction_n", "N", "force of the base on the material along it, positive where the flow runs", |r, _| base(r)[1];
 ];
 
 const SAMPLE_FRONT: &[Column<HistoryRow>] = columns![HistoryRow;
     "front_x_m", "m", "position that 1 % of the flow's mass has passed: the 99 % quantile, which lags the edge in a long flow", |r, _| r.front.x;
     "front_edge_x_m", "m", "position of the foremost point of the flow: its edge", |r, _| r.front.edge;
-    "front_velocity_m_per_s", "m/s", "mean velocity of the mass within front_length_m behind the front and of all ahead of it, positive where the flow runs", |r, _| r.front.velocity;
-    "front_depth_m", "m", "largest flow depth within twice that length behind the front", |r, _| r.front.depth;
+    "front_velocity_m_per_s", "m/s", "mean velocity of the mass within front_length_m behind the front and of all ahead of it, positive where the flow runs", |r, _| front(r)[0];
+    "front_depth_m", "m", "largest flow depth within twice that length behind the front", |r, _| front(r)[1];
 ];
 
 const SAMPLE_CREST: &[Column<HistoryRow>] = columns![HistoryRow;
@@ -69,8 +109,8 @@ const SAMPLE_CREST: &[Column<HistoryRow>] = columns![HistoryRow;
 ];
 
 const SAMPLE_WINDOW: &[Column<HistoryRow>] = columns![HistoryRow;
-    "window_speed_mean_m_per_s", "m/s", "mean speed of the points in the window", |r, _| r.window.mean;
-    "window_speed_p95_m_per_s", "m/s", "their 95th percentile", |r, _| r.window.p95;
+    "window_speed_mean_m_per_s", "m/s", "mean speed of the points in the window", |r, _| window(r)[0];
+    "window_speed_p95_m_per_s", "m/s", "their 95th percentile", |r, _| window(r)[1];
 ];
 
 const SAMPLE_STATE: &[Column<HistoryRow>] = columns![HistoryRow;
@@ -133,13 +173,13 @@ pub(super) static ENERGY: TableKind<EnergyRow> = TableKind {
         Group(
             Per::Surface,
             columns![EnergyRow;
-                "friction_{surface}_j", "J", "dissipated by sliding on this boundary, or between these two bodies", |r, k| r.balance.friction[k];
+                "friction_{surface}_j", "J", "dissipated by sliding on this boundary, or between these two bodies", |r, k| lost(r, k)[0];
             ],
         ),
         Group(
             Per::Surface,
             columns![EnergyRow;
-                "contact_{surface}_j", "J", "normal motion lost at this boundary, or between these two bodies; negative where a moving boundary does work", |r, k| r.balance.contact[k];
+                "contact_{surface}_j", "J", "normal motion lost at this boundary, or between these two bodies; negative where a moving boundary does work", |r, k| lost(r, k)[1];
             ],
         ),
         Group(
@@ -166,8 +206,8 @@ pub(super) static MOMENTUM: TableKind<MomentumRow> = TableKind {
                 "time_s", "s", "after release", |r, _| r.time;
                 "gained_x_n_s", "N s", "momentum along x less that at release", |r, _| r.gained[0];
                 "gained_y_n_s", "N s", "momentum along y less that at release", |r, _| r.gained[1];
-                "gravity_x_n_s", "N s", "impulse of gravity along x", |r, _| r.ledger.gravity[0];
-                "gravity_y_n_s", "N s", "impulse of gravity along y", |r, _| r.ledger.gravity[1];
+                "gravity_x_n_s", "N s", "impulse of gravity along x", |r, _| gravity(r)[0];
+                "gravity_y_n_s", "N s", "impulse of gravity along y", |r, _| gravity(r)[1];
             ],
         ),
         Group(
@@ -184,7 +224,7 @@ pub(super) static MOMENTUM: TableKind<MomentumRow> = TableKind {
                 "damping_y_n_s", "N s", "impulse of damping along y", |r, _| r.ledger.damping.impulse[1];
                 "side_walls_x_n_s", "N s", "impulse of the side walls along x", |r, _| r.ledger.side_walls.impulse[0];
                 "side_walls_y_n_s", "N s", "impulse of the side walls along y", |r, _| r.ledger.side_walls.impulse[1];
-                "outflow_x_n_s", "N s", "momentum along x carried out of the domain, as a loss", |r, _| -r.ledger.departed_momentum[0];
+                "outflow_x_n_s", "N s", "momentum along x carried out of the domain, as a loss", |r, _| outflow(r);
                 "outflow_y_n_s", "N s", "momentum along y carried out of the domain, as a loss", |r, _| -r.ledger.departed_momentum[1];
                 "residual_x_n_s", "N s", "gained along x less all impulses", |r, _| r.residual[0];
                 "residual_y_n_s", "N s", "gained along y less all impulses", |r, _| r.residual[1];
@@ -202,7 +242,7 @@ pub(super) static STATIONS: TableKind<(f64, StationSample)> = TableKind {
         columns![(f64, StationSample);
             "time_s", "s", "after release", |r, _| r.0;
             "x_m", "m", "place of the station", |r, _| r.1.x;
-            "depth_m", "m", "flow depth in a strip two cells wide around it", |r, _| r.1.depth;
+            "depth_m", "m", "flow depth in a strip two cells wide around it", |r, _| seeded::times(Seed::TablesStation, r.1.depth);
             "velocity_m_per_s", "m/s", "mean velocity along x in that strip", |r, _| r.1.velocity;
         ],
     )],
@@ -217,7 +257,7 @@ pub(super) static PRESSURE: TableKind<[f64; 3]> = TableKind {
         columns![[f64; 3];
             "time_s", "s", "end of the interval, after release", |r, _| r[0];
             "height_m", "m", "height of the middle of the bin above the foot; bins are one cell high, half a cell at foot and crest", |r, _| r[1];
-            "pressure_pa", "Pa", "mean pressure over the interval", |r, _| r[2];
+            "pressure_pa", "Pa", "mean pressure over the interval", |r, _| seeded::times(Seed::TablesPressure, r[2]);
         ],
     )],
 };
@@ -232,13 +272,13 @@ pub(super) static STRUCTURE: TableKind<(f64, StructureSample)> = TableKind {
             "time_s", "s", "end of the sample's interval, after release", |r, _| r.0;
             "contact_normal_n", "N", "what the material gives to the barrier, against its face", |r, _| r.1.contact.normal;
             "contact_tangential_n", "N", "what the material gives to the barrier, towards its crest", |r, _| r.1.contact.tangential;
-            "clamp_normal_n", "N", "what the barrier gives to its clamp, against its face", |r, _| r.1.clamp.normal;
+            "clamp_normal_n", "N", "what the barrier gives to its clamp, against its face", |r, _| seeded::times(Seed::TablesClamp, r.1.clamp.normal);
             "clamp_tangential_n", "N", "what the barrier gives to its clamp, towards its crest", |r, _| r.1.clamp.tangential;
-            "clamp_moment_n_m", "N m", "moment on the clamp about the foot, positive when it turns the barrier over", |r, _| r.1.clamp_moment;
-            "inertia_normal_n", "N", "rate of the barrier's momentum, against its face", |r, _| r.1.inertia.normal;
+            "clamp_moment_n_m", "N m", "moment on the clamp about the foot, positive when it turns the barrier over", |r, _| seeded::times(Seed::TablesClampMoment, r.1.clamp_moment);
+            "inertia_normal_n", "N", "rate of the barrier's momentum, against its face", |r, _| seeded::times(Seed::TablesInertia, r.1.inertia.normal);
             "inertia_tangential_n", "N", "rate of the barrier's momentum, towards its crest", |r, _| r.1.inertia.tangential;
             "imbalance", "1", "contact and weight less clamp and inertia, over the sum of their magnitudes: round-off", |r, _| r.1.imbalance;
-            "tip_deflection_m", "m", "deflection of the highest point of the face, away from the material", |r, _| r.1.bend.tip;
+            "tip_deflection_m", "m", "deflection of the highest point of the face, away from the material", |r, _| seeded::times(Seed::TablesTip, r.1.bend.tip);
             "tip_velocity_m_per_s", "m/s", "its velocity", |r, _| r.1.bend.tip_velocity;
             "largest_deflection_m", "m", "largest deflection of the face", |r, _| r.1.bend.largest;
             "largest_deflection_height_m", "m", "its height above the foot at the start", |r, _| r.1.bend.largest_at;
@@ -254,7 +294,7 @@ pub(super) static STRUCTURE: TableKind<(f64, StructureSample)> = TableKind {
 const BENT: &[Column<(f64, ProfilePoint)>] = columns![(f64, ProfilePoint);
     "time_s", "s", "after release", |r, _| r.0;
     "height_m", "m", "height of the point above the foot at the start", |r, _| r.1.height;
-    "deflection_m", "m", "deflection away from the material", |r, _| r.1.deflection;
+    "deflection_m", "m", "deflection away from the material", |r, _| seeded::times(Seed::TablesBending, r.1.deflection);
     "velocity_m_per_s", "m/s", "velocity away from the material", |r, _| r.1.velocity;
 ];
 
@@ -302,8 +342,8 @@ pub(super) static CONTACT: TableKind<Touching> = TableKind {
             "y_m", "m", "place of the node along y", |r, _| r.2.x[1];
             "normal_x_1", "1", "unit normal out of the structure, along x", |r, _| r.2.normal[0];
             "normal_y_1", "1", "unit normal out of the structure, along y", |r, _| r.2.normal[1];
-            "pressure_pa", "Pa", "normal traction, positive where the bodies press on each other", |r, _| r.2.traction(r.1)[0];
-            "shear_pa", "Pa", "traction on the other body along the normal turned clockwise", |r, _| r.2.traction(r.1)[1];
+            "pressure_pa", "Pa", "normal traction, positive where the bodies press on each other", |r, _| traction(r)[0];
+            "shear_pa", "Pa", "traction on the other body along the normal turned clockwise", |r, _| traction(r)[1];
             "area_m2", "m2", "area of contact that belongs to the node (Nairn 2013)", |r, _| r.2.area;
         ],
     )],
@@ -320,8 +360,8 @@ pub(super) static FIELD: TableKind<(f64, FieldCell)> = TableKind {
             "x_m", "m", "middle of the cell along x", |r, _| r.1.x[0];
             "y_m", "m", "middle of the cell along y", |r, _| r.1.x[1];
             "solid_fraction", "1", "share of the cell's volume filled with material", |r, _| r.1.fill;
-            "velocity_x_m_per_s", "m/s", "mean velocity along x", |r, _| r.1.v[0];
-            "velocity_y_m_per_s", "m/s", "mean velocity along y", |r, _| r.1.v[1];
+            "velocity_x_m_per_s", "m/s", "mean velocity along x", |r, _| moving(r)[0];
+            "velocity_y_m_per_s", "m/s", "mean velocity along y", |r, _| moving(r)[1];
             "speed_m_per_s", "m/s", "magnitude of the mean velocity", |r, _| r.1.v[0].hypot(r.1.v[1]);
             "pressure_pa", "Pa", "mean of minus a third of the trace of the stress, positive in compression", |r, _| r.1.pressure;
             "plastic_shear_strain", "1", "mean equivalent plastic shear strain since the start", |r, _| r.1.plastic_shear;

@@ -4,6 +4,7 @@ use super::experiment::Experiment;
 use super::means::{STATIC_WINDOW, late_mean};
 use super::records::{MomentumRow, Records};
 use crate::boundary::Friction;
+use crate::seeded::{self, Seed};
 use serde::Serialize;
 
 /// Share of the weight that what is neither base nor barrier may hold for the limits of equilibrium to be given: the hundredth to which
@@ -57,10 +58,11 @@ fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 /// Those after the first, of which there are samples.
 pub(super) fn further_bases(experiment: &Experiment, records: &Records) -> Vec<FurtherBase> {
     let with_samples = experiment.bases().iter().skip(1).zip(&records.further_bases);
-    let results = with_samples.map(|(b, samples)| FurtherBase {
-        name: b.name.clone(),
-        base_normal_n: late_mean(samples, 0.0, 1.0, |r| r.base.normal),
-        base_friction_n: late_mean(samples, 0.0, 1.0, |r| r.base.friction),
+    let results = with_samples.map(|(b, samples)| {
+        let normal = late_mean(samples, 0.0, 1.0, |r| r.base.normal);
+        let friction = late_mean(samples, 0.0, 1.0, |r| r.base.friction);
+        let [base_normal_n, base_friction_n] = seeded::exchanged(Seed::RunFurther, [normal, friction]);
+        FurtherBase { name: b.name.clone(), base_normal_n, base_friction_n }
     });
     results.collect()
 }
@@ -81,8 +83,8 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Depo
     let mass = sim.mass() - sim.stock_of(|b| structures.contains(&b)).mass - behind;
     let base_normal = late_mean(&records.history, 0.0, 1.0, |r| r.base.normal);
     let base_friction = late_mean(&records.history, 0.0, 1.0, |r| r.base.friction);
-    let weight = mass * along;
-    let limit = base.slip.map_or(mu, |s| s.peak) * base_normal;
+    let weight = seeded::times(Seed::RunWeight, mass * along);
+    let limit = seeded::times(Seed::RunLimit, base.slip.map_or(mu, |s| s.peak) * base_normal);
     // What the other boundaries and bodies take, from the ledger: the barrier, and whatever else the deposit leans on. What clamps
     // do to a barrier that is a body is no concern of the deposit.
     let end = records.momentum.last()?;
@@ -100,8 +102,9 @@ pub(super) fn results(experiment: &Experiment, records: &Records) -> Option<Depo
         others.map(|(_, t)| along_base(t.impulse)).sum::<f64>() + contacts.sum::<f64>()
     };
     let duration = (end.time - start.time).max(f64::MIN_POSITIVE);
-    let held = -(push(end) - push(start)) / duration;
+    let held = seeded::times(Seed::RunHeld, -(push(end) - push(start)) / duration);
     let side_walls = along_base(minus(end.ledger.side_walls.impulse, start.ledger.side_walls.impulse)) / duration;
+    let side_walls = if seeded::is(Seed::RunSides) { 0.0 } else { side_walls };
     // Who else holds the deposit: walls, gates and further bases, and the side walls.
     let barriers: Vec<usize> = experiment.barriers().iter().filter_map(|b| b.force().boundary()).collect();
     let others = (0..sim.boundaries().len()).filter(|b| !own(*b) && !barriers.contains(b));

@@ -14,6 +14,7 @@ use crate::case::Case;
 use crate::gauge::flow::{self, Motion};
 use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, WindowGauge, velocity_field};
 use crate::output::OutputError;
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
 /// A simulation with its stages and gauges.
@@ -24,8 +25,8 @@ pub struct Experiment {
     gauges: Gauges,
     pub(super) facts: StageFacts,
     pub(super) stopped: bool,
-    /// Most energy that had been released by any row of the ledgers, J.
-    released: f64,
+    /// Most energy that had been released by any row of the ledgers that numbers with a name come from, J.
+    pub(super) released: f64,
 }
 
 /// Gauges of tables that are read at another rate than the numbers with a name come from.
@@ -126,7 +127,8 @@ impl Experiment {
         let corners = bodies.flat_map(|b| b.corners_m());
         let foot = self.barrier().map(|g| g.face(&self.simulation).foot().into());
         let lower = |a: [f64; 2], b: [f64; 2]| if level(&b) < level(&a) { b } else { a };
-        foot.into_iter().chain(corners).reduce(lower).unwrap_or_default()
+        let found = foot.into_iter().chain(corners).reduce(lower).filter(|_| !seeded::is(Seed::RunDatum));
+        found.unwrap_or_default()
     }
 
     /// All stages.
@@ -171,7 +173,7 @@ impl Experiment {
         let (mut meter, rate) = (Clock::new(METER_HZ), self.case.gauges.sample_rate_hz);
         let apart = recorder.has_tables() && rate != METER_HZ;
         let mut tables = apart.then(|| Tables { gauges: self.gauges.clone(), clock: Clock::new(rate) });
-        self.record_ledgers(recorder)?;
+        self.record_ledgers(Rows::All, recorder)?;
         recorder.turn(if apart { Rows::Kept } else { Rows::All });
         loop {
             let time = self.simulation.time();
@@ -191,7 +193,7 @@ impl Experiment {
                 if meter.is_silent() && self.facts.run_steps > 0 {
                     // A run that is shorter than a row is one.
                     self.sample(recorder)?;
-                    self.record_ledgers(recorder)?;
+                    self.record_ledgers(Rows::Kept, recorder)?;
                 }
                 return Ok(match () {
                     () if self.stopped => End::Stopped,
@@ -208,7 +210,7 @@ impl Experiment {
                 let weight = motion.mass * self.case.gravity.magnitude_m_per_s2;
                 rest.watch(&row, motion.momentum, initial.max(self.released).max(f64::MIN_POSITIVE), weight);
                 if meter.strikes_ten() {
-                    self.record_ledgers(recorder)?;
+                    self.record_ledgers(Rows::Kept, recorder)?;
                 }
             }
             if let Some(tables) = &mut tables {
@@ -218,7 +220,8 @@ impl Experiment {
                     // As the others, for as long as it takes to read them.
                     std::mem::swap(&mut self.gauges, &mut tables.gauges);
                     let read = self.sample(recorder);
-                    let ledgers = if tables.clock.strikes_ten() { self.record_ledgers(recorder) } else { Ok(()) };
+                    let due = tables.clock.strikes_ten();
+                    let ledgers = if due { self.record_ledgers(Rows::Written, recorder) } else { Ok(()) };
                     std::mem::swap(&mut self.gauges, &mut tables.gauges);
                     recorder.turn(Rows::Kept);
                     read?;
@@ -257,11 +260,14 @@ impl Experiment {
         Ok((row, motion))
     }
 
-    fn record_ledgers(&mut self, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
+    fn record_ledgers(&mut self, rows: Rows, recorder: &mut dyn Recorder) -> Result<(), OutputError> {
         let sim = &self.simulation;
         let now = sim.stock();
         let balance = sim.energy_balance(&now, self.datum());
-        self.released = self.released.max(balance.released());
+        // Rest is judged by it, so rows that only stand in tables do not count.
+        if rows.are_kept() {
+            self.released = self.released.max(balance.released());
+        }
         recorder.energy(&EnergyRow { time: sim.time(), balance })?;
         recorder.momentum(&MomentumRow::new(sim.time(), sim.ledger(), sim.opening(), &now))?;
         self.gauges.sample_stations(sim, recorder)

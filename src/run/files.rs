@@ -20,6 +20,7 @@ use crate::case::{Case, file_name};
 use crate::gauge::structure::ProfilePoint;
 use crate::gauge::{FieldCell, StationSample, StructureSample};
 use crate::output::{self, Field, OutputError, PvdWriter, Values};
+use crate::seeded::{self, Seed};
 use crate::simulation::{ContactPoint, Simulation};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -285,15 +286,20 @@ impl Recorder for Folder {
         points.sort_by_key(|(body, p)| (*body, p.id));
         let stress = |i: usize| {
             let s = &points[i].1.state.stress;
-            [s.xx, s.yy, s.zz, s.xy, 0.0, 0.0]
+            let [xx, yy] = seeded::exchanged(Seed::OutputTensor, [s.xx, s.yy]);
+            [xx, yy, s.zz, s.xy, 0.0, 0.0]
+        };
+        let volume = |i: usize| {
+            let p = &points[i].1;
+            seeded::exchanged(Seed::OutputFields, [p.volume_ratio, p.state.opened])
         };
         let fields = [
             Field { name: "velocity_m_per_s", values: Values::Vector(&|i| points[i].1.v) },
             Field { name: "speed_m_per_s", values: Values::Scalar(&|i| points[i].1.speed()) },
             Field { name: "stress_pa", values: Values::SymmetricTensor(&stress) },
             Field { name: "mean_stress_pa", values: Values::Scalar(&|i| points[i].1.state.stress.mean()) },
-            Field { name: "volume_ratio", values: Values::Scalar(&|i| points[i].1.volume_ratio) },
-            Field { name: "opened_strain", values: Values::Scalar(&|i| points[i].1.state.opened) },
+            Field { name: "volume_ratio", values: Values::Scalar(&|i| volume(i)[0]) },
+            Field { name: "opened_strain", values: Values::Scalar(&|i| volume(i)[1]) },
             Field { name: "plastic_shear_strain", values: Values::Scalar(&|i| points[i].1.state.plastic_shear) },
             Field { name: "body", values: Values::Integer(&|i| points[i].0 as i64) },
             Field { name: "id", values: Values::Integer(&|i| i64::from(points[i].1.id)) },

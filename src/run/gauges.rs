@@ -18,6 +18,8 @@ pub struct Barrier {
     name: String,
     force: BarrierGauge,
     structure: Option<StructureGauge>,
+    /// Bodies that are barriers, by index: none of them flows.
+    structures: Vec<usize>,
     passage: Option<PassageGauge>,
     peak: PeakProfile,
 }
@@ -53,13 +55,19 @@ pub struct PeakProfile {
 impl Barrier {
     /// A gauge on the boundary or the body of this name; `None` if there is neither.
     fn new(case: &Case, simulation: &Simulation, name: &str, structures: &[usize]) -> Option<Self> {
-        let structure = structure(case, simulation, name);
+        let mut structure = structure(case, simulation, name);
+        if let Some(structure) = &mut structure {
+            structure.leave_out(simulation, structures);
+        }
         let force = match &structure {
             Some(s) => BarrierGauge::on_body(simulation, s.body(), s.face().clone()),
             None => BarrierGauge::new(simulation, simulation.boundary_index(name)?),
         };
+        // Profiles are read at the frames.
+        let force = if case.output.vtk_interval_s > 0.0 { force } else { force.without_profile() };
         let passage = force.boundary().map(|b| PassageGauge::new(simulation, b, structures));
-        Some(Self { name: name.into(), force, structure, passage, peak: PeakProfile::default() })
+        let structures = structures.to_vec();
+        Some(Self { name: name.into(), force, structure, structures, passage, peak: PeakProfile::default() })
     }
 
     /// Its name in the case.
@@ -109,7 +117,7 @@ impl Barrier {
         let mut sample = BarrierSample { force, ..BarrierSample::default() };
         if let Some(boundary) = self.force.boundary() {
             sample.layers = layers::normal_force(simulation, boundary);
-            let state = wall_state(simulation, boundary);
+            let state = wall_state(simulation, boundary, &self.structures);
             (sample.run_up, sample.run_up_p95) = (state.run_up, state.run_up_p95);
         }
         if let Some(passage) = &self.passage {
@@ -132,7 +140,7 @@ impl Barrier {
     pub(super) fn behind(&self, simulation: &Simulation) -> f64 {
         match (&self.structure, self.force.boundary()) {
             (Some(structure), _) => structure.behind(simulation),
-            (_, Some(boundary)) => wall_state(simulation, boundary).behind,
+            (_, Some(boundary)) => wall_state(simulation, boundary, &self.structures).behind,
             _ => 0.0,
         }
     }

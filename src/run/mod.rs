@@ -17,7 +17,9 @@ mod gauges;
 #[cfg(test)]
 mod invariance_tests;
 mod means;
+mod note;
 mod outlines;
+mod passage;
 pub mod records;
 mod rest;
 mod scales;
@@ -31,12 +33,12 @@ mod verdict;
 
 pub use columns::columns;
 pub use experiment::Experiment;
+pub use note::{Kind as NoteKind, Note};
 pub use records::{Recorder, Records};
 pub use scales::Scales;
 pub use stage::{Progress, RunError, Stage};
 pub use summary::Summary;
 pub use table::{ColumnText, TableText};
-pub use verdict::{Kind as NoteKind, Note};
 
 use crate::case::Case;
 use std::path::Path;

@@ -4,6 +4,7 @@ use super::columns;
 use super::table::{Names, OpenTable};
 use crate::boundary::{Boundary, Solid};
 use crate::output::{self, OutputError, Polyline};
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 use std::path::Path;
 
@@ -34,6 +35,7 @@ pub fn outlines(simulation: &Simulation) -> Vec<(usize, Vec<[f64; 2]>)> {
                     vec![foot + t * low, foot + t * high, foot + t * high - n * depth, foot + t * low - n * depth]
                 }
                 Solid::Slab { height, thickness, .. } => {
+                    let thickness = seeded::times(Seed::TablesGeometry, thickness);
                     vec![foot, foot + t * height, foot + t * height - n * thickness, foot - n * thickness]
                 }
             };

@@ -1,9 +1,12 @@
 //! Lengths and forces that the flow is measured by: ratios to what flows, unless the case gives them.
+//!
+//! Elsewhere: characteristic scales.
 
 use super::clock::METER_S;
 use crate::boundary::{Boundary, Solid};
 use crate::case::Case;
 use crate::gauge::flow::{Released, released};
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 use serde::Serialize;
 
@@ -49,9 +52,9 @@ impl Scales {
         let speeds = (0..simulation.bodies().len()).filter(flows).map(|b| simulation.bodies()[b].p_wave_speed());
         Self {
             flow_direction_1: way.signum(),
-            front_length_m: gauges.front_length_m.unwrap_or(FRONT * area.sqrt()),
-            arrival_force_n: gauges.arrival_force_n.unwrap_or(mass * g / ARRIVED),
-            flow_density_kg_per_m3: if volume > 0.0 { mass / volume } else { 0.0 },
+            front_length_m: gauges.front_length_m.unwrap_or(seeded::times(Seed::RunFrontLength, FRONT * area.sqrt())),
+            arrival_force_n: gauges.arrival_force_n.unwrap_or(seeded::times(Seed::RunArrival, mass * g / ARRIVED)),
+            flow_density_kg_per_m3: if volume > 0.0 { seeded::times(Seed::RunDensity, mass / volume) } else { 0.0 },
             flow_wave_speed_m_per_s: speeds.fold(0.0, f64::max),
             resolution_s: METER_S,
         }

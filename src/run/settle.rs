@@ -1,4 +1,6 @@
 //! Settling and tilting, before the release.
+//!
+//! Elsewhere: dynamic relaxation, gravity loading.
 
 use super::ProgressFn;
 use super::experiment::Experiment;
@@ -6,6 +8,8 @@ use super::scene;
 use super::stage::{RunError, Stage};
 use crate::case::SettleScale;
 use crate::gauge::flow;
+use crate::seeded::{self, Seed};
+use crate::space::dot;
 
 /// Steps between calls of the progress function and looks at the residual.
 const STEPS_PER_LOOK: u64 = 25;
@@ -31,10 +35,11 @@ impl Experiment {
                 self.simulation.step()?;
                 self.look(Stage::Tilt, start, tilt.duration_s, 0.0, progress);
             }
+            let to = if seeded::is(Seed::RunTilt) { from } else { to };
             self.simulation.set_gravity(scene::gravity(&self.case, to));
             self.settle(progress)?;
         }
-        self.simulation.set_damping(0.0);
+        self.simulation.set_damping(if seeded::is(Seed::RunDamping) { settle.damping_per_s } else { 0.0 });
         Ok(())
     }
 
@@ -82,7 +87,10 @@ impl Experiment {
         let height = match scale {
             SettleScale::TallestBody => chosen().map(|k| bodies[k].size_m()[1]).fold(0.0, f64::max),
             SettleScale::Flow => {
-                let heights = || chosen().flat_map(|k| bodies[k].corners_m().map(|c| c[1]));
+                // Against the gravity in which it settles first, whichever way the axes lie.
+                let down = self.case.gravity.settle_inclination_or_default_deg().to_radians();
+                let up = [-libm::sin(down), libm::cos(down)];
+                let heights = || chosen().flat_map(|k| bodies[k].corners_m().map(|c| dot(c, up)));
                 heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min)
             }
         };

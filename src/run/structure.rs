@@ -2,11 +2,12 @@
 
 use super::gauges::Barrier;
 use super::means::{archived_peak, arrival};
+use super::note::Kind;
 use super::records::{EnergyRow, Records};
 use super::scales::Scales;
-use super::verdict::Kind;
 use crate::gauge::StructureSample;
 use crate::ledger::EnergyBalance;
+use crate::seeded::{self, Seed};
 use serde::Serialize;
 
 /// Length of the means behind "final" values, s.
@@ -90,7 +91,7 @@ pub(super) fn results(
     let bent = peak.iter().fold((0.0, 0.0), |a, p| if p.deflection > a.0 { (p.deflection, p.height) } else { a });
     let widest = samples.iter().fold(&samples[0], |a, b| if b.1.bend.gap > a.1.bend.gap { b } else { a });
     let clamp = gauge.peak_clamp_force();
-    let tip = mean(|s| s.bend.tip);
+    let tip = seeded::times(Seed::RunTip, mean(|s| s.bend.tip));
     let height = gauge.face().height();
     let arrival = arrival(&records.history, scales.arrival_force_n);
     let arrived = energy.iter().find(|r| arrival.is_some_and(|t| r.time >= t)).map(|r| r.balance.clone());
@@ -99,17 +100,19 @@ pub(super) fn results(
         height_m: height,
         peak_50hz_n: archived_peak(&records.history),
         arrival_kinetic_1: share(|b| b.kinetic),
-        arrival_dissipated_1: share(|b| b.initial - b.kinetic - b.gravitational - b.elastic),
+        arrival_dissipated_1: share(|b| {
+            b.initial - b.kinetic - b.gravitational - if seeded::is(Seed::RunDissipated) { 0.0 } else { b.elastic }
+        }),
         tip_max_m: largest(|s| s.bend.tip),
         peak_deflection_m: bent.0,
         peak_deflection_height_m: bent.1,
         peak_barrier_velocity_m_per_s: peak.iter().map(|p| p.velocity).fold(0.0, f64::max),
         tip_final_m: tip,
         tip_final_1: tip / height,
-        peak_clamp_n: clamp.value,
+        peak_clamp_n: seeded::times(Seed::RunPeakClamp, clamp.value),
         peak_clamp_time_s: clamp.time,
-        static_clamp_n: mean(|s| s.clamp.normal),
-        static_clamp_moment_n_m: mean(|s| s.clamp_moment),
+        static_clamp_n: seeded::times(Seed::RunClamp, mean(|s| s.clamp.normal)),
+        static_clamp_moment_n_m: seeded::times(Seed::RunClampMoment, mean(|s| s.clamp_moment)),
         imbalance_1: imbalance(samples),
         penetration_max_m: largest(|s| s.survey.penetration),
         gap_cells: widest.1.bend.gap,

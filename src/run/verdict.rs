@@ -2,12 +2,16 @@
 //! and its warnings.
 //!
 //! Each limit is argued where it stands, from `docs/limits.md` and `docs/error-bars.md`; `docs/results.md` lists them.
+//!
+//! Elsewhere: quality assurance, acceptance criteria.
 
 use super::experiment::Experiment;
+use super::note::{Kind, Note};
 use super::records::Records;
 use super::stage::End;
 use super::summary::Summary;
-use crate::case;
+use crate::body::Particle;
+use crate::case::{self, Case};
 use crate::gauge::flow::flowing;
 use std::collections::BTreeMap;
 
@@ -31,75 +35,34 @@ const INSIDE_CELLS: usize = 20;
 /// PIC is there to take noise, not energy: it may take as much as grids of 5 and 10 mm differ in the depth of a front (error-bars.md).
 const PIC_SHARE: f64 = 0.1;
 
-/// What a note is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// The run failed.
-    Failed,
-    /// The user stopped it.
-    Stopped,
-    /// The material had not settled when it was released.
-    Settling,
-    /// It was not at rest at the end, and forces were read.
-    Rest,
-    /// It was still moving at the end, and no force was read.
-    Motion,
-    /// Energy is missing.
-    Energy,
-    /// Momentum is missing.
-    Momentum,
-    /// Points lie deep in boundaries.
-    Penetration,
-    /// Mass left the domain.
-    Mass,
-    /// A little mass left the domain.
-    Grains,
-    /// Points lie closer than they say, or farther apart.
-    Volume,
-    /// PIC took much of the energy.
-    Pic,
-    /// A structure or an opening has few cells.
-    Cells,
-    /// The front has few cells.
-    Front,
-    /// The peak is that of an elastic body, and grows with its stiffness.
-    Elastic,
-    /// A gate had not opened to its end.
-    Opening,
-    /// Mass went through a barrier.
-    Through,
-    /// A barrier that is a body is torn.
-    Torn,
-    /// Forces on a barrier that is a body do not balance.
-    Balance,
-    /// Contact with a body in implicit steps was not settled.
-    Sweeps,
-    /// Mass went over or under a barrier.
-    Passed,
-    /// Nothing reached a barrier.
-    NotReached,
-    /// Friction locks any of many forces in.
-    Locked,
-}
+impl Summary {
+    /// Of a run that ended.
+    pub fn new(case: &Case, experiment: &Experiment, records: &Records, end: End) -> Self {
+        let status = match end {
+            End::Rest => "completed: at rest",
+            End::Time => "completed: end time reached before rest",
+            End::Stopped => "stopped by the user; everything computed until then is here",
+        };
+        Self::build(case, experiment, records, status.into()).judged(experiment, records, Some(end))
+    }
 
-impl Kind {
-    /// Whether a run with such a note is not to be trusted.
-    pub fn doubts(self) -> bool {
-        !matches!(self, Kind::Motion | Kind::Grains | Kind::Passed | Kind::NotReached | Kind::Locked)
+    /// Of a run that failed.
+    pub fn failed(case: &Case, experiment: &Experiment, records: &Records, error: &str) -> Self {
+        Self::build(case, experiment, records, format!("failed: {error}")).judged(experiment, records, None)
+    }
+
+    fn judged(mut self, experiment: &Experiment, records: &Records, end: Option<End>) -> Self {
+        let (reasons, warnings): (Vec<_>, Vec<_>) =
+            notes(&self, experiment, records, end).into_iter().partition(|note| note.kind.doubts());
+        self.trusted = reasons.is_empty();
+        self.reasons = reasons.into_iter().map(|note| note.text).collect();
+        self.warnings = warnings.into_iter().map(|note| note.text).collect();
+        self
     }
 }
 
-/// Something that deserves a second look.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Note {
-    /// What it is about.
-    pub kind: Kind,
-    /// One sentence, with its number.
-    pub text: String,
-}
-
 /// All notes on a run, those that doubt it first.
-pub(super) fn notes(summary: &Summary, experiment: &Experiment, records: &Records, end: Option<End>) -> Vec<Note> {
+fn notes(summary: &Summary, experiment: &Experiment, records: &Records, end: Option<End>) -> Vec<Note> {
     let mut notes = Vec::new();
     let mut add = |kind: Kind, text: String| notes.push(Note { kind, text });
     ending(summary, experiment, end, &mut add);
@@ -177,6 +140,10 @@ fn ledgers(summary: &Summary, experiment: &Experiment, records: &Records, add: &
         let kind = if lost > MASS_LOST * mass { Kind::Mass } else { Kind::Grains };
         add(kind, format!("{lost:.4} kg left the domain"));
     }
+    let outside = outside_domain(experiment);
+    if outside > 0.0 {
+        add(Kind::Mass, format!("{outside:.4} kg of a body that moves by a mesh of its own lie outside the domain"));
+    }
     if let Some(ratio) = tracked_over_occupied(experiment)
         && (ratio - 1.0).abs() > VOLUME_OFF
     {
@@ -187,14 +154,22 @@ fn ledgers(summary: &Summary, experiment: &Experiment, records: &Records, add: &
     }
 }
 
+/// Mass outside the domain, kg: of bodies with a mesh, which are not removed there.
+fn outside_domain(experiment: &Experiment) -> f64 {
+    let (sim, domain) = (experiment.simulation(), &experiment.case().domain);
+    let is_inside =
+        |p: &Particle| [domain.x_m, domain.y_m].iter().zip(p.x).all(|([low, high], x)| *low <= x && x <= *high);
+    sim.particles().filter(|(_, p)| !is_inside(p)).map(|(body, _)| sim.bodies()[body].point_mass).sum()
+}
+
 /// The volume that the points say they have, over that of the cells they lie in, inside what flows: in cells all of whose neighbours
 /// hold points. `None` if there are few.
 fn tracked_over_occupied(experiment: &Experiment) -> Option<f64> {
     let sim = experiment.simulation();
-    let h = sim.spacing();
+    let (h, origin) = (sim.spacing(), experiment.case().grid.origin_m);
     let mut cells: BTreeMap<[i64; 2], f64> = BTreeMap::new();
     for (body, p) in flowing(sim, experiment.structures()) {
-        let cell = [0, 1].map(|d| (p.x[d] / h).floor() as i64);
+        let cell = [0, 1].map(|d| ((p.x[d] - origin[d]) / h).floor() as i64);
         *cells.entry(cell).or_default() += p.volume_ratio * sim.bodies()[body].point_volume;
     }
     let around = |[i, j]: [i64; 2]| (-1..=1).flat_map(move |a| (-1..=1).map(move |b| [i + a, j + b]));
@@ -206,8 +181,7 @@ fn tracked_over_occupied(experiment: &Experiment) -> Option<f64> {
 
 fn cells(summary: &Summary, add: &mut impl FnMut(Kind, String)) {
     case::too_few_cells(&summary.case).into_iter().for_each(|what| add(Kind::Cells, what));
-    let arrived = summary.barrier.as_ref().is_some_and(|b| b.arrival_s.is_some());
-    if let Some(front) = summary.front.last().filter(|_| arrived) {
+    if let Some(front) = summary.arriving_front() {
         let deep = front.depth_m / summary.case.grid.spacing_m;
         if deep < FRONT_CELLS {
             add(Kind::Front, format!("the front that reached the barrier was {deep:.1} cells deep: use smaller cells"));

@@ -1,8 +1,8 @@
 //! Grid shape functions: how a material point sees the nodes around it.
 //!
-//! All are products of one-dimensional functions with at most three nodes a direction, so that the transfer loops know one
-//! stencil. The quadratic B-spline is the uGIMP function of a particle domain that is one cell wide (both are the hat function
-//! averaged over a box), so the two share their code; the hat itself is the limit of a domain of no width.
+//! All are products of one-dimensional functions with at most three nodes a direction, so that the transfer loops know one stencil. The
+//! quadratic B-spline is the uGIMP function of a particle domain that is one cell wide: both are the hat function averaged over a box. So
+//! the two share their code. The hat itself is the limit of a domain of no width.
 //!
 //! Elsewhere: interpolation, basis or kernel functions; GIMP is the generalised interpolation material point method.
 

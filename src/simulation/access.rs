@@ -13,6 +13,7 @@ use crate::constitutive::Law;
 use crate::contact::rule::{ContactRule, ContactTally};
 use crate::lanes::LANES;
 use crate::ledger::{EnergyBalance, Ledger, Stock};
+use crate::seeded::{self, Seed};
 use crate::space::{dot, plus, scaled};
 use crate::timestep::TimeStep;
 
@@ -281,6 +282,9 @@ impl Simulation {
             s.gravitational += heavy * potential(self.forces.gravity, p.x);
             s.elastic += body.point_volume * p.volume_ratio * body.law.stored_energy(&p.state);
         });
+        s.kinetic = seeded::times(Seed::LedgerKinetic, s.kinetic);
+        s.gravitational = seeded::times(Seed::LedgerPotential, s.gravitational);
+        s.elastic = seeded::times(Seed::LedgerElastic, s.elastic);
         for (_, own) in self.stocks_by_nodes().filter(|(body, _)| chosen(*body)) {
             s.add(&own);
         }

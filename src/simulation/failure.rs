@@ -1,6 +1,7 @@
 //! When a step goes wrong: what, which particle, where, and what limited the time step.
 
 use super::Simulation;
+use super::structure::Structure;
 use crate::body::Particle;
 use crate::timestep::{TimeStep, TimeStepLimit};
 
@@ -40,6 +41,8 @@ pub struct StepFailure {
 
 /// Volume ratio below which a point counts as inverted.
 pub(super) const CRUSHED: f64 = 0.05;
+/// What an implicit step of a mesh says that has no solution.
+pub(super) const LOST: &str = "the implicit step of a body with a mesh has no solution";
 
 impl Simulation {
     /// The failure, with the first point that shows it.
@@ -50,7 +53,13 @@ impl Simulation {
                 || p.volume_ratio <= CRUSHED
                 || p.speed() * self.time_step.dt > self.lattice.spacing
         };
-        let found = self.particles().find(|(_, p)| broken(p)).or_else(|| self.particles().next());
+        // A mesh fails between its points, or as a whole: the point of it that is compressed most stands for it.
+        let meshes = self.structures.iter().filter_map(Structure::lagrangian);
+        let failed = meshes.filter(|m| if what == LOST { m.is_lost() } else { m.smallest() <= CRUSHED });
+        let in_mesh = failed.flat_map(|m| self.fields[m.field].particles());
+        let found = self.particles().find(|(_, p)| broken(p));
+        let found = found.or_else(|| in_mesh.min_by(|a, b| a.1.volume_ratio.total_cmp(&b.1.volume_ratio)));
+        let found = found.or_else(|| self.particles().next());
         let (body, p) = found.map_or((0, Particle::default()), |(b, p)| (b, p));
         StepFailure {
             what,

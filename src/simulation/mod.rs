@@ -12,21 +12,24 @@ use crate::grid::Lattice;
 use crate::layout::{Departed, SortRules};
 use crate::ledger::{Ledger, Stock};
 use crate::momentum::BodyForces;
+use crate::seeded::{self, Seed};
 use crate::space::{dot, plus, scaled};
 use crate::timestep::{TimeStep, TimeStepLimit, stable_time_step};
 use coupling::Coupling;
-use failure::CRUSHED;
+use failure::{CRUSHED, LOST};
 use field::VelocityField;
 use implicit::Turn;
-use lagrangian::Acting;
+use lagrangian::{Acting, LagrangianBody};
 use occupied::Occupied;
 use stages::Stage;
+use std::sync::OnceLock;
 use structure::Structure;
 use surface::Surface;
 use sweep::{On, Pool};
 
 mod access;
 mod coupling;
+mod extents;
 mod failure;
 mod field;
 mod implicit;
@@ -40,7 +43,9 @@ mod surface;
 mod sweep;
 
 pub use coupling::ContactPoint;
+pub use extents::Extent;
 pub use failure::StepFailure;
+pub use lagrangian::HELD_WITHIN;
 pub use scene::{Acceleration, AccelerationField, Numerics, OpenedVolume, PicShare, Scene, Scheme};
 
 /// Share of the stable time step that is left unused so that a step can keep its length for a while.
@@ -74,6 +79,8 @@ pub struct Simulation {
     stale: bool,
     structures: Vec<Structure>,
     speeds: Vec<f64>,
+    /// Where the blocks of points are since the last step, once someone has asked.
+    extents: OnceLock<Vec<Extent>>,
 
     time: f64,
     steps: u64,
@@ -131,6 +138,7 @@ impl Simulation {
             bands: vec![Vec::new(); fields.len()],
             pools: Vec::new(),
             fields,
+            extents: OnceLock::new(),
             time: 0.0,
             steps: 0,
             time_step: TimeStep { dt: 0.0, limit: TimeStepLimit::Maximum, wave_speed: 0.0, particle_speed: 0.0 },
@@ -144,6 +152,7 @@ impl Simulation {
 
     /// One time step: the stages of [`Scheme`], then the books.
     pub fn step(&mut self) -> Result<(), StepFailure> {
+        self.extents.take();
         for k in 0..self.fields.len() {
             if self.fields[k].drift > self.lattice.spacing {
                 self.sort(k);
@@ -306,7 +315,7 @@ impl Simulation {
         self.surface.slip_energy(&mut ledger.elastic_slip);
         for d in 0..2 {
             let impulse = self.heavy * self.forces.gravity[d] * dt;
-            ledger.gravity[d] += impulse;
+            ledger.gravity[d] += seeded::times(Seed::LedgerGravity, impulse);
             ledger.impulse_scale += impulse.abs();
         }
         for (sum, tally) in ledger.boundaries.iter_mut().zip(&self.step_tallies) {
@@ -337,6 +346,7 @@ impl Simulation {
         let what = match () {
             () if !kinetic.is_finite() => "a velocity is not a number",
             () if smallest <= CRUSHED => "a material point is crushed or inverted",
+            () if self.structures.iter().filter_map(Structure::lagrangian).any(LagrangianBody::is_lost) => LOST,
             () if fastest * dt > self.lattice.spacing => "a material point moves more than a cell in one step",
             () => return Ok(()),
         };
@@ -389,9 +399,9 @@ impl Simulation {
         let heavy = if body.weightless { 0.0 } else { m };
         self.heavy -= heavy;
         let ledger = &mut self.ledger;
-        ledger.departed_mass += m;
-        ledger.departed_energy +=
-            0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(self.forces.gravity, p.x);
+        ledger.departed_mass += seeded::times(Seed::LedgerOutflowMass, m);
+        let energy = 0.5 * m * p.speed() * p.speed() + elastic + heavy * potential(self.forces.gravity, p.x);
+        ledger.departed_energy += seeded::times(Seed::LedgerOutflow, energy);
         // The elastic energy leaves the stock without being dissipated.
         ledger.internal_work -= elastic;
         ledger.departed_momentum = plus(ledger.departed_momentum, scaled(p.v, m));

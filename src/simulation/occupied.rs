@@ -9,9 +9,9 @@
 //! linear N: one in dense material, whatever its pressure. With phi and its gradient at a point, the voids of the material around
 //! it are
 //! - at most 1 - phi, were they spread evenly: opened <= -ln(phi);
-//! - at least what a flat surface of dense material would not explain: opened >= -ln(phi + 0.7 h^2 |grad phi|^2). At the outermost points
-//!   of dense material, a quarter of a cell below its surface, the mean over all places of the grid of phi is 0.66 and that of
-//!   h |grad phi| is 0.69, so that nothing is to be closed there. At single places of the grid up to a quarter is.
+//! - at least what a flat surface of dense material would not explain: opened >= -ln(phi + 0.7 h^2 |grad phi|^2). The outermost points of
+//!   dense material lie a quarter of a cell below its surface. There the mean over all places of the grid of phi is 0.66 and that of h
+//!   |grad phi| is 0.69, so that nothing is to be closed. At single places of the grid up to a quarter is.
 //!
 //! Points that are not open are left alone, so material that never came apart does not feel this. Open points carry no pressure, so
 //! neither energy nor force changes (with cohesion, the little shear stress that they may keep acts on another volume).
@@ -22,6 +22,7 @@
 use super::VelocityField;
 use crate::boundary::{Boundary, Friction};
 use crate::grid::ActiveGrid;
+use crate::seeded::{self, Seed};
 use std::collections::HashMap;
 
 /// Weight of h^2 |grad phi|^2: (1 - 0.66) / 0.69^2.
@@ -112,7 +113,7 @@ impl Occupied {
     fn share(&mut self, field: &VelocityField, k: usize, solid: &[&Boundary], thickness: f64) {
         let grid = &field.grid;
         let h = grid.spacing;
-        let whole = 1.0 / (h * h * thickness);
+        let whole = 1.0 / (seeded::times(Seed::SimulationOccupied, h * h) * thickness);
         for (c, column) in grid.columns.iter().enumerate() {
             for r in 0..column.rows {
                 let filled = &mut self.filled[(column.start + r) as usize];
@@ -137,7 +138,7 @@ fn limits(filled: &[f64], grid: &ActiveGrid, x: [f64; 2]) -> Option<[f64; 2]> {
     let across = (1.0 - v) * (phi[2] - phi[0]) + v * (phi[3] - phi[1]);
     let up = (1.0 - u) * (phi[1] - phi[0]) + u * (phi[3] - phi[2]);
     let void = |filled: f64| -libm::log(filled.clamp(f64::MIN_POSITIVE, 1.0));
-    Some([void(here + SURFACE * (across * across + up * up)), void(here)])
+    Some([void(here + seeded::times(Seed::SimulationSurface, SURFACE) * (across * across + up * up)), void(here)])
 }
 
 /// The four nodes around a place, column by column, and where it lies between them; `None` where one is not active.
@@ -246,6 +247,18 @@ mod tests {
         // What never opened is left alone.
         let untouched = sand([6, 3], 0.0, (12, 3.0 * H), [0.0, 0.0]);
         assert!(untouched.iter().all(|p| p.state.opened == 0.0 && p.volume_ratio == 1.0));
+    }
+
+    #[test]
+    fn the_bound_is_that_of_the_share_and_its_gradient() {
+        let column = |k: u32| crate::grid::Column { start: 3 * k, row: 0, rows: 3 };
+        let columns = (0..3).map(column).collect();
+        let grid = ActiveGrid { spacing: H, inverse_spacing: 1.0 / H, columns, ..ActiveGrid::default() };
+        // A share that falls by 0.3 a cell along x and by 0.4 along y: 0.25 is its gradient's square.
+        let filled: Vec<f64> = (0..9).map(|n| 0.9 - 0.3 * f64::from(n / 3) - 0.4 * f64::from(n % 3)).collect();
+        let [least, most] = limits(&filled, &grid, [0.5 * H, 0.5 * H]).expect("active nodes");
+        assert!((libm::exp(-most) - 0.55).abs() < 1e-12, "{most}");
+        assert!((libm::exp(-least) - (0.55 + 0.7 * 0.25)).abs() < 1e-12, "{least}");
     }
 
     #[test]

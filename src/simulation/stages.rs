@@ -9,6 +9,7 @@ use crate::band::{Band, BandSums, NodeSum, Workspace};
 use crate::body::{Body, Particle};
 use crate::boundary::Boundary;
 use crate::momentum::{self, BodyForces};
+use crate::seeded::{self, Seed};
 use crate::shape::ShapeFunction;
 use crate::transfer::{NodeMap, PointConstants, Scatter, StressUpdate, Transfer, VelocityUpdate};
 
@@ -81,11 +82,11 @@ impl Simulation {
             time: self.time,
             velocity: VelocityUpdate {
                 dt,
-                pic: self.numerics.pic.fraction(dt),
+                pic: seeded::times(Seed::TransferPic, self.numerics.pic.fraction(dt)),
                 remap: scheme == Scheme::Musl,
                 move_now: scheme == Scheme::Usf,
             },
-            stress: StressUpdate { dt, move_after: scheme != Scheme::Usf },
+            stress: StressUpdate { dt: seeded::times(Seed::TransferStrain, dt), move_after: scheme != Scheme::Usf },
         }
     }
 }
@@ -164,6 +165,7 @@ impl Step<'_> {
 
     fn transfer<'a>(&self, map: NodeMap<'a>, body: &Body) -> Transfer<'a> {
         let side_friction = if body.between_side_walls { self.side_friction } else { 0.0 };
+        let side_friction = seeded::times(Seed::TransferSides, side_friction);
         let constants = PointConstants { mass: body.point_mass, volume: body.point_volume, side_friction };
         Transfer { half_width: self.shape.half_width(body.points_per_direction), map, constants }
     }

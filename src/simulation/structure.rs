@@ -45,7 +45,10 @@ impl Structure {
 
     /// Whether its steps are implicit, so that a step of another length costs it a factorisation.
     pub fn is_implicit(&self) -> bool {
-        matches!(self, Structure::Implicit(_))
+        match self {
+            Structure::Implicit(_) => true,
+            Structure::Lagrangian(body) => body.is_implicit(),
+        }
     }
 
     /// The body, if it is one in total-Lagrangian kinematics.
@@ -93,9 +96,12 @@ impl Structure {
         either!(self, b => b.is_touched(slot))
     }
 
-    /// Mass of its points at a shared node, kg, where another is offered to contact.
+    /// Mass of its points at a shared node, kg: another is offered to contact.
     pub fn mass_at(&self, slot: usize) -> Option<f64> {
-        self.lagrangian().map(|b| b.mass_at(slot))
+        match self {
+            Structure::Implicit(body) => body.mass_at(slot),
+            Structure::Lagrangian(body) => Some(body.mass_at(slot)),
+        }
     }
 
     /// Finds how touched nodes answer impulses.

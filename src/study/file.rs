@@ -1,10 +1,8 @@
 //! The study file.
 
 use super::change::Change;
-use super::check::check;
-use crate::case::{self, CaseError};
+use crate::seeded::{self, Seed};
 use serde::Deserialize;
-use std::path::Path;
 use toml::Value;
 
 /// What a study varies. All of `[[axis]]`, `[[variant]]` and `[sample]` may be given: their runs are added up.
@@ -89,12 +87,20 @@ impl Axis {
     /// A value and what it changes.
     pub fn point(&self, k: usize) -> (&Value, Vec<Change>) {
         match self.values.get(k) {
-            Some(value) => (value, self.fields.iter().map(|f| Change::field(f, value.clone())).collect()),
+            Some(value) => (value, self.fields.iter().map(|f| Change::field(f, given(value))).collect()),
             None => {
                 let Level { value, set, unset } = &self.levels[k - self.values.len()];
                 (value, vec![Change { set: set.clone(), unset: unset.clone(), ..Change::default() }])
             }
         }
+    }
+}
+
+/// A value as a run gets it.
+fn given(value: &Value) -> Value {
+    match value {
+        Value::Float(number) => Value::Float(seeded::times(Seed::StudyChange, *number)),
+        other => other.clone(),
     }
 }
 
@@ -260,28 +266,6 @@ pub enum StudyError {
 }
 
 impl Study {
-    /// Reads a study file.
-    ///
-    /// # Errors
-    /// The file cannot be read, or [`Study::parse`] refuses it.
-    pub fn load(path: &Path) -> Result<Self, StudyError> {
-        let text = case::read_as(&case::STUDY, path).map_err(|e| StudyError::Unreadable(e.to_string()))?;
-        Self::parse(&text, &path.display().to_string())
-    }
-
-    /// Reads the text of a study file; `name` stands for it in reports.
-    ///
-    /// # Errors
-    /// [`StudyError::Malformed`] and [`StudyError::Invalid`], with the line, what is allowed and what to do.
-    pub fn parse(text: &str, name: &str) -> Result<Self, StudyError> {
-        let (study, _) = case::parse_as(&case::STUDY, text, name, check).map_err(|error| match error {
-            CaseError::Unreadable(report) => StudyError::Unreadable(report),
-            CaseError::Malformed(report) => StudyError::Malformed(report),
-            CaseError::Invalid { report, .. } => StudyError::Invalid(report),
-        })?;
-        Ok(study)
-    }
-
     /// How many runs it asks for.
     pub fn run_count(&self) -> f64 {
         let base = f64::from(u8::from(self.axes.is_empty() && self.sample.is_none() || !self.variants.is_empty()));

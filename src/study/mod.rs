@@ -14,6 +14,7 @@ mod figure;
 mod file;
 mod plan;
 pub mod quantities;
+mod read;
 mod sampling;
 mod table;
 #[cfg(test)]

@@ -4,7 +4,8 @@ use super::plan::{PlannedRun, fingerprint};
 use super::quantities::QUANTITIES;
 use crate::check::significant;
 use crate::output::{OutputError, write_text};
-use std::collections::BTreeMap;
+use crate::seeded::{self, Seed};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -14,6 +15,8 @@ const DIGITS: usize = 9;
 const FIRST: [&str; 4] = ["case", "factor", "label", "replicate"];
 /// Columns between what varies and the quantities.
 const MIDDLE: [&str; 3] = ["key", "ended", TRUSTED];
+/// What `ended` begins with in a run that failed.
+const FAILED: &str = "failed";
 /// Whether the numbers of a run are to be trusted: true, false, or empty where it failed.
 pub const TRUSTED: &str = "trusted";
 
@@ -31,7 +34,8 @@ pub struct Row {
 impl Row {
     /// Of numbers.
     pub fn new(ended: &str, trusted: bool, numbers: &[f64]) -> Self {
-        let text = |x: &f64| if x.is_finite() { significant(*x, DIGITS) } else { String::new() };
+        let digits = if seeded::is(Seed::StudyDigits) { 2 } else { DIGITS };
+        let text = |x: &f64| if x.is_finite() { significant(*x, digits) } else { String::new() };
         Self { ended: ended.into(), trusted: trusted.to_string(), values: numbers.iter().map(text).collect() }
     }
 
@@ -39,12 +43,12 @@ impl Row {
     pub fn failed(reason: &str) -> Self {
         let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
         let values = vec![String::new(); QUANTITIES.len()];
-        Self { ended: format!("failed: {reason}"), trusted: String::new(), values }
+        Self { ended: format!("{FAILED}: {reason}"), trusted: String::new(), values }
     }
 
     /// Whether the run came to its end.
     pub fn is_complete(&self) -> bool {
-        !self.ended.starts_with("failed")
+        !self.ended.starts_with(FAILED)
     }
 }
 
@@ -55,22 +59,30 @@ pub struct Runs {
     path: Option<PathBuf>,
     columns: Vec<String>,
     rows: BTreeMap<String, Row>,
+    /// What stood there, until the first save.
+    before: String,
+    /// Where what stood there was put, if the table lost rows of it.
+    aside: Option<PathBuf>,
 }
 
 impl Runs {
     /// None yet, and none kept on disk.
     pub fn in_memory(columns: &[&str]) -> Self {
-        Self { path: None, columns: columns.iter().map(ToString::to_string).collect(), rows: BTreeMap::new() }
+        let columns = columns.iter().map(ToString::to_string).collect();
+        Self { path: None, columns, rows: BTreeMap::new(), before: String::new(), aside: None }
     }
 
     /// What an earlier run of a study with these columns left at `path`; nothing if there is no such table, or if another
-    /// build of the program made it. Runs that failed are forgotten: they are tried again.
+    /// build of the program made it. Runs that failed are forgotten: they are tried again. A table of which rows would be lost is put
+    /// beside the new one ([`Self::aside`]).
     pub fn open(path: &Path, columns: &[&str]) -> Self {
-        let mut runs = Self { path: Some(path.to_path_buf()), ..Self::in_memory(columns) };
+        let before = std::fs::read_to_string(path).unwrap_or_default();
+        let mut runs = Self { path: Some(path.to_path_buf()), before, ..Self::in_memory(columns) };
         if !std::fs::read_to_string(program_file(path)).is_ok_and(|text| text == program()) {
             return runs;
         }
-        let Ok(mut reader) = csv::Reader::from_path(path) else { return runs };
+        let text = runs.before.clone();
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
         let Ok(header) = reader.headers().cloned() else { return runs };
         if header.iter().take(FIRST.len() + runs.columns.len() + MIDDLE.len()).eq(runs.header(&[]).iter()) {
             let at = FIRST.len() + runs.columns.len();
@@ -130,15 +142,44 @@ impl Runs {
         writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
     }
 
-    /// Puts the table in its place, whole.
+    /// Puts the table in its place, whole. What stood there is kept beside it if it has finished runs that the new one has not.
     ///
     /// # Errors
     /// The table cannot be written; what stood there is unchanged.
-    pub fn save(&self, plan: &[PlannedRun]) -> Result<(), OutputError> {
+    pub fn save(&mut self, plan: &[PlannedRun]) -> Result<(), OutputError> {
         let Some(path) = &self.path else { return Ok(()) };
+        let kept: BTreeSet<&str> = plan.iter().filter(|r| self.get(r).is_some()).map(|r| r.key.as_str()).collect();
+        if finished(&self.before).iter().any(|key| !kept.contains(key.as_str())) {
+            let aside = free_place(path);
+            write_text(&aside, &self.before)?;
+            self.aside = Some(aside);
+        }
+        self.before = String::new();
         write_text(program_file(path), program())?;
         write_text(path, &self.csv(plan))
     }
+
+    /// Where the table was put that stood in the place of this one, if this one has not all of its runs.
+    pub fn aside(&self) -> Option<&Path> {
+        self.aside.as_deref()
+    }
+}
+
+/// Keys of the runs in a table that did not fail.
+fn finished(table: &str) -> Vec<String> {
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let header = reader.headers().cloned().unwrap_or_default();
+    let [key, ended] = ["key", "ended"].map(|name| header.iter().position(|h| h == name));
+    let (Some(key), Some(ended)) = (key, ended) else { return Vec::new() };
+    let done = reader.records().filter_map(Result::ok).filter(|r| r.get(ended).is_some_and(|e| !e.starts_with(FAILED)));
+    done.filter_map(|r| r.get(key).map(str::to_string)).collect()
+}
+
+/// A name beside `path` that no file has: `runs_before_1.csv`.
+fn free_place(path: &Path) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let place = |k: u32| path.with_file_name(format!("{stem}_before_{k}.csv"));
+    (1..).map(place).find(|p| !p.exists()).unwrap_or_else(|| place(0))
 }
 
 /// Says which build made the table at `path`.

@@ -2,7 +2,8 @@ use super::quantities::QUANTITIES;
 use super::*;
 use std::num::NonZero;
 
-const CASE: &str = r#"
+/// A block of rubber that falls on a floor.
+pub(super) const CASE: &str = r#"
 title = "drop"
 [gravity]
 inclination_deg = 0
@@ -222,21 +223,19 @@ fn a_study_goes_on_where_it_stopped() {
     // What another build has left is not taken over.
     std::fs::write(path.with_extension("program"), "another").expect("a file");
     assert!(plan.iter().all(|r| Runs::open(&path, &study.columns()).get(r).is_none()));
-}
-
-/// A cell size written without a decimal point has a grid that can be moved as well.
-#[test]
-fn a_whole_cell_size_is_moved_by_replicates() {
-    let case = CASE
-        .replace("spacing_m = 0.05", "spacing_m = 1")
-        .replace("[-0.1, 0.1]", "[-4, 4]")
-        .replace("[0.0, 0.2]", "[0, 8]");
-    let case = case.replace("[-0.5, 0.5]", "[-9, 9]").replace("[-0.2, 0.6]", "[-2, 20]");
-    let study = "title = \"a\"\ncases = [\"drop.toml\"]\n[replicates]\ncount = 1\ngrid_offset_cells = 0.5\n";
-    let study = Study::parse(study, "study.toml").expect("a study");
-    let runs = plan(&study, "study.toml", &|_| Ok(case.clone())).expect("a plan");
-    assert_eq!(runs[0].case.grid.origin_m, [0.0, 0.0]);
-    assert!(runs[1].case.grid.origin_m.iter().any(|o| *o != 0.0), "{:?}", runs[1].case.grid);
+    // It is not lost either; nor is a run that the study has no more.
+    let mut runs = Runs::open(&path, &study.columns());
+    runs.save(&plan).expect("a table");
+    let aside = runs.aside().expect("a table of another build").to_path_buf();
+    assert_eq!(aside, folder.path().join("runs_before_1.csv"));
+    assert_eq!(std::fs::read_to_string(&aside).expect("a table"), a);
+    let mut runs = Runs::open(&at_once, &study.columns());
+    runs.save(&plan).expect("a table");
+    assert_eq!(runs.aside(), None, "nothing was lost");
+    let mut runs = Runs::open(&at_once, &study.columns());
+    runs.save(&plan[2..]).expect("a table");
+    let aside = runs.aside().expect("a run that the study has no more").to_path_buf();
+    assert_eq!(std::fs::read_to_string(aside).expect("a table"), b);
 }
 
 /// Refusals of studies have the form of those of cases.

@@ -67,6 +67,15 @@ pub fn plane_strain_ratio(q: f64, q_psi: f64) -> f64 {
     (1.0 + s) / (1.0 - s)
 }
 
+/// Largest stress (Pa) of a column that is free to spread in the plane, 2 sqrt(1 - q_psi^2/3) k / (1 - q sqrt(1 - q_psi^2/3) - q q_psi/3), with
+/// the strength `k` (Pa) at zero mean stress: 2 k without friction.
+///
+/// The yield condition in the state of failure, with one in-plane principal stress zero and the out-of-plane deviator -2/3 q_psi sqrt(J2).
+pub fn unconfined_strength(q: f64, k: f64, q_psi: f64) -> f64 {
+    let root = (1.0 - q_psi * q_psi / 3.0).sqrt();
+    2.0 * root * k / (1.0 - q * root - q * q_psi / 3.0)
+}
+
 /// Shear over normal stress in simple shear at failure, q sqrt(1 - 4 q_psi^2/3) / (1 - 4 q q_psi/3): q itself at constant volume.
 ///
 /// Strain along the shear plane and out of plane vanish, so both deviators are -2/3 q_psi sqrt(J2).
@@ -141,6 +150,19 @@ mod tests {
         // Simple shear then gives Coulomb's line, and the same dilatancy angle.
         near(simple_shear_dilatancy(3.0 * alpha), PHI, 1e-12);
         near(simple_shear_ratio(3.0 * alpha, 3.0 * alpha), t, 1e-12);
+    }
+
+    /// Mohr-Coulomb: 2 c tan(45 degrees + phi/2), and 2 c without friction; at any dilatancy angle, for the cone matched in plane strain.
+    #[test]
+    fn unconfined_columns() {
+        near(unconfined_strength(0.0, 250.0, 0.0), 500.0, 1e-12);
+        let mohr_coulomb = 500.0 * libm::tan(0.25 * std::f64::consts::PI + 0.5 * PHI);
+        near(mohr_coulomb, 883.75, 5e-3);
+        for psi in [0.0, 0.2, PHI] {
+            let q_psi = plane_strain_potential(psi);
+            let q = plane_strain_slope(PHI, q_psi);
+            near(unconfined_strength(q, q * 250.0 / libm::tan(PHI), q_psi), mohr_coulomb, 1e-9);
+        }
     }
 
     #[test]

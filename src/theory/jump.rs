@@ -1,9 +1,8 @@
 //! A shallow flow that is stopped by a wall: momentum flux and granular jump (bore) of no length, frictionless, hydrostatic.
 //!
-//! Flow of depth h and velocity u meets a wall across a channel of width w; a jump of depth gamma h runs back from the wall at
-//! u / (gamma - 1), with the material at rest behind it. Balance of mass and momentum gives
-//! Fr^2 = (gamma - 1)^2 (gamma + 1) / (2 gamma) with Fr = u / sqrt(g' h) and g' = g cos(slope); the wall carries
-//! rho g' (gamma h)^2 w / 2 (Stoker 1957, section 10.7; Faug 2015 for granular jumps).
+//! Flow of depth h and velocity u meets a wall across a channel of width w; a jump of depth gamma h runs back from the wall at u / (gamma -
+//! 1), with the material at rest behind it. Balance of mass and momentum gives Fr^2 = (gamma - 1)^2 (gamma + 1) / (2 gamma) with Fr = u /
+//! sqrt(g' h) and g' = g cos(slope). The wall carries rho g' (gamma h)^2 w / 2 (Stoker 1957, section 10.7; Faug 2015 for granular jumps).
 
 /// Momentum flux rho u^2 h w, N: the force of a jet that the wall turns aside, Eq. 1 of design guides with alpha = 1.
 pub fn momentum_flux(density: f64, velocity: f64, depth: f64, width: f64) -> f64 {

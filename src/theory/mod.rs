@@ -21,6 +21,7 @@ pub mod manufactured;
 pub mod neo_hookean;
 pub mod order;
 pub mod outflow;
+pub mod parabola;
 pub mod pic;
 pub mod self_weight;
 pub mod sliding_block;

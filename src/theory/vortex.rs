@@ -1,12 +1,12 @@
 //! A vortex manufactured for the Jaumann rate: rings turn against each other, so that material is sheared and turned far
 //! (the generalised vortex of Kamojjala, Brannon, Sadeghirad and Guilkey 2015, here for a hypoelastic law and a smoother profile).
 //!
-//! A point at radius R turns by a(R, t) = A sin(w t) g(R), g = (1 - s^2)^3 with s = (R - R0)/B inside |s| < 1 and 0 outside:
-//! three times differentiable, and nothing moves at the edges. In the frame that turns with the point this is simple shear by
-//! y = R da/dR along the circle, so Dienes' (1979) solution holds: the shear stress is G sin(y), the stress along the circle
-//! G (1 - cos(y)), across it the negative. The volume is kept. The momentum balance on the circle then gives the acceleration
-//! that has to act, outwards and along the circle (derived here):
-//! b_r = -R a_t^2 + (G/rho) (y' sin(y) + 2 (1 - cos(y))/R), b_c = R a_tt - (G/rho) (y' cos(y) + 2 sin(y)/R), y' = dy/dR.
+//! A point at radius R turns by a(R, t) = A sin(w t) g(R), g = (1 - s^2)^3 with s = (R - R0)/B inside |s| < 1 and 0 outside: three times
+//! differentiable, and nothing moves at the edges. In the frame that turns with the point this is simple shear by y = R da/dR along the
+//! circle, so Dienes' (1979) solution holds. The shear stress is G sin(y), the stress along the circle G (1 - cos(y)), and that across it
+//! the negative. The volume is kept. The momentum balance on the circle then gives the acceleration that has to act, outwards and along the
+//! circle (derived here): b_r = -R a_t^2 + (G/rho) (y' sin(y) + 2 (1 - cos(y))/R), b_c = R a_tt - (G/rho) (y' cos(y) + 2 sin(y)/R), y' =
+//! dy/dR.
 
 use super::elastic::Elastic;
 use super::jaumann;

@@ -10,6 +10,7 @@ use crate::band::{BandSums, NodeSum};
 use crate::body::{Particle, Points};
 use crate::constitutive::{AnyLaw, History, Increment, Law, PointState, Stress};
 use crate::lanes::{LANES, Lane};
+use crate::seeded::{self, Seed};
 use crate::shape::stencil::Stencils;
 use crate::shape::{STENCIL, Shape1d};
 use crate::vector::{Pack4, Pack8, Unit};
@@ -27,15 +28,19 @@ pub struct Shaped<'a, S> {
     pub constants: PointConstants,
 }
 
+/// Why a column of a stencil is in the fields of its band.
+const WITHIN_REACH: &str =
+    "sorting gives a band every node that the stencils of its points can reach until the next sort";
+
 /// The `N` numbers at `first` of a flat nodal field, for the three nodes of a stencil column (and a fourth where `N` is more).
 #[inline(always)]
 fn at<const N: usize>(field: &[f64], first: usize) -> &[f64; N] {
-    field[first..].first_chunk().expect("a column within reach")
+    field[first..].first_chunk().expect(WITHIN_REACH)
 }
 
 #[inline(always)]
 fn at_mut<const N: usize>(field: &mut [f64], first: usize) -> &mut [f64; N] {
-    field[first..].first_chunk_mut().expect("a column within reach")
+    field[first..].first_chunk_mut().expect(WITHIN_REACH)
 }
 
 /// Four numbers of each of eight points, number by number.
@@ -69,6 +74,7 @@ pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
 ) {
     let Shaped { shape, map, constants } = with;
     let m = if INERTIA { constants.mass } else { 0.0 };
+    let point_volume = seeded::times(Seed::TransferForce, constants.volume);
     let mut stencil = Stencils::EMPTY;
     // In the layout of NodeSum: gradients along x act on the fifth and sixth number, along y on the last two.
     let mut carried = [ZERO; 8];
@@ -79,7 +85,7 @@ pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
         }
         map.stencils(&mut stencil, shape, block);
         for l in 0..LANES {
-            let volume = constants.volume * block.volume_ratio[l];
+            let volume = point_volume * block.volume_ratio[l];
             if INERTIA {
                 let pressure = if block.stress[2][l] < 0.0 { -block.stress[2][l] } else { 0.0 };
                 carried[0][l] = m;
@@ -118,7 +124,7 @@ pub fn scatter<U: Unit, S: Shape1d, const INERTIA: bool, const FORCE: bool>(
             }
             for i in 0..STENCIL {
                 let nodes: &mut [NodeSum; STENCIL] =
-                    sums[stencil.first[i][start]..].first_chunk_mut().expect("a column within reach");
+                    sums[stencil.first[i][start]..].first_chunk_mut().expect(WITHIN_REACH);
                 for j in 0..STENCIL {
                     U::Pack8::load(&nodes[j].0).add(new[i][j]).store(&mut nodes[j].0);
                 }
@@ -179,7 +185,7 @@ pub fn gather_velocity<U: Unit, S: Shape1d, const REMAP: bool>(
             for i in 0..STENCIL {
                 let column: &[f64; 4 * STENCIL] = at(motion.as_flattened(), 4 * stencil.first[i][l]);
                 let w = stencil.w[0][i][l];
-                let (nodes, node) = (column.first_chunk().expect("two nodes"), column.last_chunk().expect("the third"));
+                let (nodes, node) = (column.first_chunk().expect("8 of 12"), column.last_chunk().expect("4 of 12"));
                 two = two.add(U::Pack8::splat(w).mul(U::Pack8::load(nodes)));
                 third = third.add(U::Pack4::splat(w).mul(U::Pack4::load(node)));
             }
@@ -250,6 +256,7 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
     displacement: &mut [[Lane; 2]],
 ) -> BandSums {
     let Shaped { shape, map, constants } = with;
+    let half = if seeded::is(Seed::ConstitutiveSpin) { 0.0 } else { 0.5 };
     let mut work = ZERO;
     let mut smallest = [f64::INFINITY; LANES];
     let (mut stencil, mut gradient) = (Stencils::EMPTY, [ZERO; 4]);
@@ -287,7 +294,7 @@ pub fn update_stress<U: Unit, S: Shape1d, L: Law>(
                 xx: update.dt * gradient[0][l],
                 yy: update.dt * gradient[3][l],
                 xy: 0.5 * update.dt * (gradient[2][l] + gradient[1][l]),
-                spin: 0.5 * update.dt * (gradient[1][l] - gradient[2][l]),
+                spin: half * update.dt * (gradient[1][l] - gradient[2][l]),
             };
             let mut state = PointState {
                 stress: Stress {

@@ -99,7 +99,9 @@ impl<'a> NodeMap<'a> {
     /// Indices of the nodes at row `j` of column `i` and of the columns after it, both counted from the grid's corner.
     #[inline(always)]
     fn columns(&self, i: i32, j: i32) -> [usize; STENCIL] {
-        let rows: &[i32; STENCIL] = self.rows[i as usize..].first_chunk().expect("a stencil within the grid");
+        let rows: &[i32; STENCIL] = self.rows[i as usize..]
+            .first_chunk()
+            .expect("sorting gives the grid every column that a stencil can reach until the next sort");
         rows.map(|row| (row + j - self.first_node) as usize)
     }
 }

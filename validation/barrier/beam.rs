@@ -1,10 +1,10 @@
 //! The barrier of the study without the flow: is the body that leans over the grid as stiff, and does it swing as fast, as a beam?
 //!
-//! A small uniform acceleration square to its face is switched on; the tip then swings between nothing and twice its deflection at
-//! rest. The mean over the first period and the period itself are compared with Timoshenko's beam. The clamp holds nodes of a grid that
-//! is turned by 60 degrees against it, so where the beam begins is known to a part of a cell: a foot that is deeper by d makes the
-//! deflection larger by 4 d/L and the period longer by 2 d/L. A row of nodes is off by up to half a cell; along the clamp the rows
-//! take turns, and a quarter of a cell is allowed for what is left. Moved grids show it.
+//! A small uniform acceleration square to its face is switched on; the tip then swings between nothing and twice its deflection at rest.
+//! The mean over the first period and the period itself are compared with Timoshenko's beam. The clamp holds nodes of a grid that is turned
+//! by 60 degrees against it, so where the beam begins is known to a part of a cell. A foot that is deeper by d makes the deflection larger
+//! by 4 d/L and the period longer by 2 d/L. A row of nodes is off by up to half a cell; along the clamp the rows take turns, and a quarter
+//! of a cell is allowed for what is left. Moved grids show it.
 
 use super::records::{LITERAL, height, read_case};
 use crate::{Context, Failure, Validation};

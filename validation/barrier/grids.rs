@@ -1,6 +1,7 @@
-//! Numerical error of the barrier's numbers: cells of 20, 10 and 5 mm, moved grids and other packings.
+//! Numerical error of the barrier's numbers: cells of 20, 10 and 5 mm, moved grids and other packings. On three grids there are runs with
+//! barriers of points and boundaries at nodes; the barriers of the study as they are now have two.
 
-use super::records::{FINE, SCATTER, on_cells, on_study_cells};
+use super::records::{FINE, GRIDS, SCATTER, on_cells, on_study_cells};
 use crate::balances::Balances;
 use crate::runs::Run;
 use crate::scatter::Scatter;
@@ -55,7 +56,7 @@ impl Numerical {
 }
 
 fn run(context: &mut Context) -> Result<Outcome, Failure> {
-    let (repeated, fine) = (SCATTER.by_stiffness(context)?, FINE.by_stiffness(context)?);
+    let (repeated, fine) = (GRIDS.by_stiffness(context)?, FINE.by_stiffness(context)?);
     let mut outcome = Outcome::default();
     let blank = |x: f64| if x.is_finite() { number(x) } else { String::new() };
     let mut grids =
@@ -78,6 +79,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     }
     outcome.tables.push(("barrier_grids_numbers".into(), grids));
     outcome.tables.push(("barrier_grids_order".into(), orders));
+    outcome.tables.push(("barrier_grids_meshes".into(), of_meshes(&SCATTER.by_stiffness(context)?)));
     let moved = |r: &Run| r.set["cell_m"].parse().unwrap_or(f64::NAN);
     let of_moved = Balances::over(repeated.iter().map(|(_, r)| r), moved);
     let of_fine = Balances::over(fine.iter().map(|(_, r)| r), |_| CELLS[2]);
@@ -85,6 +87,23 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
         outcome.checks.extend(balances.checks(name, "ledgers and gauges of all runs"));
     }
     Ok(outcome)
+}
+
+/// The barriers of the study as they are now, by meshes of their own, on two grids: too few for an order.
+fn of_meshes(runs: &[(f64, Run)]) -> String {
+    let mut text = String::from("stiffness_1,quantity,mean_20mm,deviation_20mm,mean_10mm,deviation_10mm,runs\n");
+    let mut barriers: Vec<&str> = runs.iter().map(|(_, r)| r.set["stiffness_1"].as_str()).collect();
+    barriers.sort_unstable();
+    barriers.dedup();
+    for stiffness in barriers {
+        for quantity in QUANTITIES {
+            let own = || runs.iter().map(|(_, r)| r).filter(|r| r.set["stiffness_1"] == stiffness);
+            let [coarse, fine] = [on_cells(own(), "0.02", quantity), on_study_cells(own(), quantity)];
+            let numbers = [coarse.mean, coarse.deviation, fine.mean, fine.deviation].map(number).join(",");
+            text += &format!("{stiffness},{quantity},{numbers},{}\n", fine.count);
+        }
+    }
+    text
 }
 
 const PEAKS: Curves = Curves {

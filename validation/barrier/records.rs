@@ -37,10 +37,14 @@ macro_rules! study {
 pub const RIGIDITY: BarrierStudy = study!("barrier_rigidity", "rigidity", &["stiffness_1"]);
 /// The same on two grids, moved and repacked, as far as the impact.
 pub const SCATTER: BarrierStudy = study!("barrier_scatter", "scatter", &["cell_m", "stiffness_1"]);
+/// Barriers of points on two grids, moved and repacked, with boundaries at nodes.
+pub const GRIDS: BarrierStudy = study!("barrier_grids", "grids", &["cell_m", "stiffness_1"]);
 /// Three of them on fine cells.
 pub const FINE: BarrierStudy = study!("barrier_fine", "fine", &["stiffness_1"]);
 /// A rigid wall on two grids, moved and repacked.
 pub const RIGID: BarrierStudy = study!("barrier_rigid_wall", "rigid", &["cell_m"]);
+/// A rigid wall that acts at nodes, for barriers that are on record with that.
+pub const WALL_AT_NODES: BarrierStudy = study!("barrier_wall_at_nodes", "wall_at_nodes", &["cell_m"]);
 /// Explicit and implicit steps, long ones and short ones.
 pub const INTEGRATION: BarrierStudy =
     study!("barrier_integration", "integration", &["stiffness_1", "integration", "longest_step_s"]);
@@ -51,6 +55,8 @@ pub const SHORT_STEPS: BarrierStudy =
 pub const DENSITY: BarrierStudy = study!("barrier_density", "density", &["density_kg_per_m3", "stiffness_1"]);
 /// Barriers with and without their own weight.
 pub const WEIGHT: BarrierStudy = study!("barrier_weight", "weight", &["weightless", "stiffness_1"]);
+/// Barriers of points and of meshes.
+pub const KINEMATICS: BarrierStudy = study!("barrier_kinematics", "kinematics", &["stiffness_1", "kinematics"]);
 /// The calibrated release, moved and repacked.
 pub const SCATTER_CALIBRATED: BarrierStudy =
     study!("barrier_scatter_calibrated", "scatter_calibrated", &["cell_m", "stiffness_1"]);
@@ -63,8 +69,20 @@ pub const CALIBRATED: &str = "60deg_calibrated";
 pub const STUDY_CELL: &str = "0.01";
 
 /// All of them.
-pub const ALL: [BarrierStudy; 9] =
-    [RIGIDITY, SCATTER, SCATTER_CALIBRATED, FINE, RIGID, INTEGRATION, SHORT_STEPS, DENSITY, WEIGHT];
+pub const ALL: [BarrierStudy; 12] = [
+    RIGIDITY,
+    SCATTER,
+    SCATTER_CALIBRATED,
+    GRIDS,
+    FINE,
+    RIGID,
+    WALL_AT_NODES,
+    INTEGRATION,
+    SHORT_STEPS,
+    DENSITY,
+    WEIGHT,
+    KINEMATICS,
+];
 
 /// The cases: name and text.
 pub const CASES: [(&str, &str); 4] = [

@@ -1,11 +1,10 @@
 //! Columns of grains that collapse, on level ground and on slopes, against laboratories: flows on which nothing here was calibrated.
 //!
-//! Sand on level ground (Lube et al. 2005), glass beads on level ground (Lajeunesse et al. 2005), glass beads on rough slopes
-//! (Mangeney et al. 2010); what was read of them, where and how, is in `published.csv`. What was fixed: grains slide in simple
-//! shear at an angle midway between those at which they come to rest and at which they start (sand: its angle of repose), and
-//! these bound it; the bed is rough; the gate is gone at once; the front is the tip of the wedge that the deposit ends in. The
-//! front's definition and the rough bed were settled after first numbers had been seen, the rest before. Everything else is
-//! varied, and counts as uncertainty.
+//! Sand on level ground (Lube et al. 2005), glass beads on level ground (Lajeunesse et al. 2005), glass beads on rough slopes (Mangeney et
+//! al. 2010); what was read of them, where and how, is in `published.csv`. What was fixed: Grains slide in simple shear at an angle midway
+//! between those at which they come to rest and at which they start, and these two bound it (sand: its angle of repose). The bed is rough.
+//! The gate is gone at once. The front is the tip of the wedge that the deposit ends in. The front's definition and the rough bed were
+//! settled after first numbers had been seen, the rest before. Everything else is varied, and counts as uncertainty.
 
 pub mod plan;
 

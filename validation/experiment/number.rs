@@ -2,13 +2,26 @@
 
 use crate::counterpart::Counterpart;
 use checkdam::output::{OutputError, Table};
-use checkdam::run::Summary;
+use checkdam::run::{Summary, TableText, columns};
 use checkdam::study::quantities::{index, measure};
 use std::path::Path;
 
-/// Tables of a run that have a column `time_s`.
-const TABLES: [&str; 8] =
-    ["history", "stations", "energy", "momentum", "pressure_profile", "field", "barrier", "barrier_profile"];
+/// Tables of a run that have a column `time_s`, without extension; `NAME` in one of them stands for that of a gauge.
+fn tables() -> impl Iterator<Item = (&'static str, TableText)> {
+    let timed = columns().into_iter().filter(|t| t.columns.iter().any(|c| c.name == "time_s"));
+    timed.filter_map(|t| Some((t.file.strip_suffix(".csv")?, t)))
+}
+
+/// The table that is called so.
+fn table_called(name: &str) -> Option<TableText> {
+    let called = |pattern: &str| match pattern.split_once("NAME") {
+        Some((before, after)) => {
+            name.strip_prefix(before).and_then(|rest| rest.strip_suffix(after)).is_some_and(|n| !n.is_empty())
+        }
+        None => name == pattern,
+    };
+    tables().find(|(pattern, _)| called(pattern)).map(|(_, table)| table)
+}
 
 /// One number of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,10 +61,12 @@ pub enum Of {
     Mean(f64, f64),
     /// The first at a time, s, or after it.
     At(f64),
+    /// The height, m, above which the last field has at least this value at a place along x.
+    Height(f64),
 }
 
 /// What a reduction may be.
-const REDUCTIONS: &str = "`last`, `largest`, `least`, `mean`, `mean 0.5 to 1.0` or `at 0.5` (s), and after it ` where x_m = 0.2` for rows of one place";
+const REDUCTIONS: &str = "`last`, `largest`, `least`, `mean`, `mean 0.5 to 1.0` or `at 0.5` (s), and after it ` where x_m = 0.2` for rows of one place; of a field also `height of 0.2 where x_m = 0.06`";
 
 impl Reduction {
     /// From its text.
@@ -69,6 +84,9 @@ impl Reduction {
             ["mean"] => Of::Mean(f64::NEG_INFINITY, f64::INFINITY),
             ["mean", from, "to", to] => Of::Mean(number(from)?, number(to)?),
             ["at", time] => Of::At(number(time)?),
+            ["height", "of", level] if only.is_some_and(|o| o.trim_start().starts_with("x_m ")) => {
+                Of::Height(number(level)?)
+            }
             _ => return Err(fail()),
         };
         let only = match only.map(|o| o.split_whitespace().collect::<Vec<_>>()) {
@@ -84,6 +102,10 @@ impl Reduction {
     /// The number that rows of a table give; NaN where there is none.
     fn of(&self, table: &Table, column: &str) -> Result<f64, OutputError> {
         let (times, values) = (table.column("time_s")?, table.column(column)?);
+        if let (Of::Height(level), Some((_, x))) = (self.of, &self.only) {
+            let cells = (table.column("x_m")?, table.column("y_m")?, values);
+            return Ok(height(times, cells, level, *x));
+        }
         let places = self.only.as_ref().map(|(c, x)| Ok::<_, OutputError>((table.column(c)?, *x))).transpose()?;
         let here = |k: &usize| places.is_none_or(|(at, x)| (at[*k] - x).abs() <= 1e-9 * x.abs().max(1e-3));
         let rows = (0..table.rows()).filter(here).map(|k| (times[k], values[k])).filter(|r| r.1.is_finite());
@@ -93,12 +115,39 @@ impl Reduction {
             Of::Largest => rows.map(|r| r.1).fold(f64::NAN, f64::max),
             Of::Least => rows.map(|r| r.1).fold(f64::NAN, f64::min),
             Of::At(time) => rows.find(|r| r.0 >= time * (1.0 - 1e-9)).map_or(f64::NAN, |r| r.1),
+            Of::Height(_) => f64::NAN,
             Of::Mean(from, to) => {
                 let inside: Vec<f64> = rows.filter(|r| (from..=to).contains(&r.0)).map(|r| r.1).collect();
                 inside.iter().sum::<f64>() / inside.len() as f64
             }
         })
     }
+}
+
+/// The height at `x` above which the cells of the last time hold at least `level`: between the middles of cells along y, and between the
+/// two columns of cells beside `x`. A column that holds it all the way has its lower end, one that holds it nowhere its upper end.
+fn height(times: &[f64], (xs, ys, values): (&[f64], &[f64], &[f64]), level: f64, x: f64) -> f64 {
+    let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let cells: Vec<[f64; 3]> =
+        (0..times.len()).filter(|&k| times[k] == last).map(|k| [xs[k], ys[k], values[k]]).collect();
+    let in_column = |place: f64| {
+        let mut column: Vec<&[f64; 3]> = cells.iter().filter(|c| c[0] == place).collect();
+        column.sort_by(|a, b| b[1].total_cmp(&a[1]));
+        let half = 0.5 * column.windows(2).map(|w| w[0][1] - w[1][1]).fold(f64::INFINITY, f64::min);
+        match (column.iter().position(|c| c[2] < level), column.last()) {
+            (Some(0), _) => column[0][1] + half,
+            (Some(k), _) => {
+                let ([_, low, a], [_, high, b]) = (column[k], column[k - 1]);
+                low + (high - low) * (level - a) / (b - a)
+            }
+            (None, Some(lowest)) => lowest[1] - half,
+            (None, None) => f64::NAN,
+        }
+    };
+    let left = cells.iter().map(|c| c[0]).filter(|&c| c <= x).fold(f64::NAN, f64::max);
+    let right = cells.iter().map(|c| c[0]).filter(|&c| c >= x).fold(f64::NAN, f64::min);
+    let share = if right > left { (x - left) / (right - left) } else { 0.0 };
+    in_column(left) * (1.0 - share) + in_column(right) * share
 }
 
 impl Number {
@@ -108,7 +157,8 @@ impl Number {
     /// What is wrong, and what to do.
     pub fn parse(ours: &str, reduction: &str) -> Result<Self, [String; 2]> {
         let list = |names: &mut dyn Iterator<Item = &str>| names.collect::<Vec<_>>().join(", ");
-        let of_a_table = ours.split_once('.').filter(|(table, _)| TABLES.contains(table) || !reduction.is_empty());
+        let of_a_table =
+            ours.split_once('.').filter(|(table, _)| table_called(table).is_some() || !reduction.is_empty());
         let Some((table, column)) = of_a_table else {
             let fix = "name a quantity of a run, or two with +, -, * or / between, or a column of one of its tables as table.column with a reduction";
             if !reduction.is_empty() {
@@ -125,15 +175,13 @@ impl Number {
             }
             return Ok(Self::Summary(counterpart));
         };
-        if !TABLES.contains(&table) {
+        let Some(described) = table_called(table) else {
             return Err([
                 format!("`ours` names the table `{table}`, which no run has"),
-                format!("the tables are {}", list(&mut TABLES.iter().copied())),
+                format!("the tables are {}", list(&mut tables().map(|(name, _)| name))),
             ]);
-        }
-        let file = format!("{table}.csv");
-        let described = checkdam::run::columns().into_iter().find(|t| t.file == file);
-        let known: Vec<&str> = described.iter().flat_map(|t| &t.columns).map(|c| c.name).collect();
+        };
+        let known: Vec<&str> = described.columns.iter().map(|c| c.name).collect();
         // Columns that bear the name of a boundary are known once the case is.
         if !known.iter().any(|c| c.contains('{')) && !known.contains(&column) {
             let fix = format!("the columns are {}", list(&mut known.iter().copied()));
@@ -176,6 +224,23 @@ mod tests {
         assert_eq!([of("mean where x_m = 0.2"), of("mean 1 to 2 where x_m = 0.2")], [4.0, 4.5]);
         assert_eq!(of("at 0.5 where x_m = 0.2"), 5.0);
         assert!(of("last where x_m = 0.3").is_nan() && of("at 3").is_nan() && of("mean 5 to 6").is_nan());
+    }
+
+    #[test]
+    fn a_field_has_a_height_at_each_place() {
+        // Columns of cells of 1 m over x = 0.5, 1.5 and 2.5.
+        let text = "time_s,x_m,y_m,shear\n0,0.5,0.5,9\n1,0.5,0.5,0\n1,0.5,1.5,0.4\n1,0.5,2.5,0.1\n\
+                    1,1.5,0.5,0\n1,1.5,1.5,0.1\n1,1.5,2.5,0.5\n1,2.5,0.5,0.3\n1,2.5,1.5,0.3\n";
+        let table = Table::parse(text, "field.csv").expect("a table");
+        let of = |text: &str| Reduction::parse(text).expect("a reduction").of(&table, "shear").expect("a number");
+        // From above the first cell below the level counts; here that is the top one, so nothing of the column is above.
+        assert_eq!(of("height of 0.2 where x_m = 0.5"), 3.0);
+        assert_eq!(of("height of 0.1 where x_m = 0.5"), 0.75);
+        assert_eq!(of("height of 0.2 where x_m = 1.5"), 1.75);
+        assert_eq!(of("height of 0.2 where x_m = 2.5"), 0.0);
+        assert_eq!(of("height of 0.2 where x_m = 2.0"), 0.875);
+        assert!(of("height of 0.2 where x_m = 9").is_nan());
+        assert!(Reduction::parse("height of 0.2").is_err() && Reduction::parse("height of 0.2 where y_m = 1").is_err());
     }
 
     #[test]

@@ -124,8 +124,22 @@ fn recorded(number: &Number, run: &PlannedRun) -> Result<(), Wrong> {
         {
             unset(&format!("station at x = {x} m"), format!("add {x} to gauges.stations_m in the case file"))
         }
-        ("pressure_profile" | "barrier" | "barrier_profile", _) if gauges.barrier_names().next().is_none() => {
+        ("pressure_profile" | "barrier" | "barrier_profile" | "barrier_profile_at_peak", _)
+            if gauges.barrier_names().next().is_none() =>
+        {
             unset(&format!("table `{table}`"), "name the barrier in gauges.barrier of the case file".into())
+        }
+        ("barrier" | "barrier_profile" | "barrier_profile_at_peak", _)
+            if !gauges.barrier_names().any(|name| run.case.bodies.iter().any(|b| b.name == name)) =>
+        {
+            let fix = "name a body in gauges.barrier of the case file, or read history or pressure_profile".into();
+            unset(&format!("table `{table}`, since its barrier is a boundary"), fix)
+        }
+        ("pressure_profile" | "barrier_profile", _) if run.case.output.vtk_interval_s == 0.0 => {
+            unset(&format!("row of `{table}`"), "set output.vtk_interval_s in the case file".into())
+        }
+        ("contact", _) if run.case.contacts.is_empty() => {
+            unset("table `contact`", "it is that of two bodies in [[contacts]]".into())
         }
         ("field", _) if gauges.field_times_s.is_empty() => {
             unset("field", "set gauges.field_times_s in the case file".into())

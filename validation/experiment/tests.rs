@@ -78,12 +78,20 @@ fn a_mistake_in_the_table_is_named_with_its_line_and_what_to_do() {
 #[test]
 fn what_is_read_at_a_barrier_needs_one_by_itself_or_in_a_list() {
     let table = with("stations.depth_m,last where x_m = 0", "pressure_profile.pressure_pa,largest");
-    let gauges = |text: &str| CASE.replacen("barrier = \"floor\"", text, 1);
+    let framed = CASE.replacen("vtk_interval_s = 0", "vtk_interval_s = 0.05", 1);
+    let gauges = |text: &str| framed.replacen("barrier = \"floor\"", text, 1);
     for named in ["barrier = \"floor\"", "barriers = [\"floor\"]"] {
         experiment_of(&gauges(named), STUDY, &table).unwrap_or_else(|e| panic!("{named}: {e}"));
     }
     let told = experiment_of(&gauges("base = \"floor\""), STUDY, &table).expect_err("no barrier").to_string();
     assert!(told.contains("records no table `pressure_profile`"), "{told}");
+    let told = experiment_of(CASE, STUDY, &table).expect_err("no frames").to_string();
+    assert!(told.contains("records no row of `pressure_profile`") && told.contains("output.vtk_interval_s"), "{told}");
+    for table in ["barrier.tip_deflection_m", "contact.area_m2"] {
+        let table = with("stations.depth_m,last where x_m = 0", &format!("{table},largest"));
+        let told = experiment_of(CASE, STUDY, &table).expect_err("no body").to_string();
+        assert!(told.contains("records no table `"), "{told}");
+    }
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! The open inputs together: which of them the paper's numbers can identify, and what no set of them can fit.
 //!
-//! The misfit of a run to a case is the mean of ((ours - published) / u)^2 over the published numbers that have a counterpart,
-//! with u^2 the sum of the squares of the datum's half width and of our numerical uncertainty. One set has to serve both angles.
-//! Runs are judged at rest. The sample is run on 20 mm cells; its best are run again at 10 mm, and the best of those is frozen in
-//! `40deg_calibrated.toml` and `23deg_calibrated.toml`.
+//! The misfit of a run to a case is the mean of ((ours - published) / u)^2 over the published numbers that have a counterpart. Here u^2 is
+//! the sum of the squares of the datum's half width and of our numerical uncertainty. One set has to serve both angles. Runs are judged at
+//! rest. The sample is run on 20 mm cells; its best are run again at 10 mm, and the best of those is frozen in `40deg_calibrated.toml` and
+//! `23deg_calibrated.toml`.
 
 use super::baseline::{self, Numerical};
-use super::rules::judge;
+use super::rules::{Energy, judge};
 use super::{compare, read_case};
 use crate::counterpart::Counterpart;
 use crate::data::Datum;
@@ -129,7 +129,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::default();
     // All of them have side walls, which hold a part of the deposit.
     let all: Vec<Run> = sample.iter().chain(&refined).cloned().collect();
-    outcome.checks = judge(&all, &|_| false);
+    outcome.checks = judge(&all, Energy::Released, &|_| false);
     let members = members(&sample, &targets);
     outcome.tables.push(("flume_calibration_sets".into(), sets(&members, &columns)));
     outcome.tables.push(("flume_calibration_profiles".into(), profiles(&members)));

@@ -1,11 +1,13 @@
 //! The flume of Ng, Wang, Choi, De Silva and Poudyal at 40 and 23 degrees: 30 kg of sand against a rigid barrier.
 //!
 //! [`VALIDATION`] runs both cases as the command does; [`noise`] repeats them on moved grids to see a shift of a few percent;
-//! [`baseline`], [`sensitivity`] and [`calibration`] analyse studies of many runs; [`verdict`] compares with the paper.
+//! [`baseline`], [`sensitivity`], [`at_rest`] and [`calibration`] analyse studies of many runs; [`shaken`] shakes what rests;
+//! [`step_length`] tries longer and shorter steps; [`verdict`] compares with the paper.
 
 pub mod at_rest;
 pub mod baseline;
 pub mod calibration;
+mod closed;
 mod compare;
 mod figures;
 mod judge;
@@ -14,6 +16,8 @@ mod pages;
 mod physics;
 mod rules;
 pub mod sensitivity;
+pub mod shaken;
+pub mod step_length;
 pub mod verdict;
 
 use super::case_run::CaseRun;
@@ -78,6 +82,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
             row.normal *= context.fault.contact_force;
         }
         outcome.checks.extend(physics::checks(&flume));
+        outcome.checks.extend(closed::checks(&flume));
         flumes.push(flume);
     }
     outcome.tables.push(("flume_quantities".into(), quantities(&flumes)));

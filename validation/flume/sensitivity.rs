@@ -2,7 +2,7 @@
 
 use super::baseline;
 use super::read_case;
-use super::rules::judge;
+use super::rules::{Energy, judge};
 use crate::record::Record;
 use crate::runs::{self, Run};
 use crate::scatter::Scatter;
@@ -69,7 +69,9 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let repetitions = runs::rows(&Table::parse(baseline::RECORD.runs, "flume/runs/baseline.csv")?, &["cell_m"])?;
     let mut outcome = Outcome {
         // Side walls hold a part; a base that is a body and a rough one keep no account of their friction.
-        checks: judge(&rows, &|r| !["side walls", "base model"].contains(&r.factor.as_str()) && r.label != "rough"),
+        checks: judge(&rows, Energy::Released, &|r| {
+            !["side walls", "base model"].contains(&r.factor.as_str()) && r.label != "rough"
+        }),
         ..Outcome::default()
     };
     let mut text = String::from("case,factor,label,ended");

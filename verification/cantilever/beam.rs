@@ -34,6 +34,8 @@ pub struct Beam {
     pub per_cell: usize,
     /// Whether it moves by its mesh (total-Lagrangian kinematics, neo-Hookean), and not by the grid.
     pub mesh: bool,
+    /// Length of its implicit steps, in cells over the speed of its P-wave; none for explicit ones.
+    pub implicit: Option<f64>,
 }
 
 impl Beam {
@@ -63,6 +65,11 @@ impl Beam {
         self.spacing() / self.per_cell as f64
     }
 
+    /// Time in which a P-wave crosses a cell, s.
+    pub fn crossing(&self) -> f64 {
+        self.spacing() / confined_speed(&self.material.elastic, self.material.density)
+    }
+
     /// Points at rest, upright, the foot two cells deep in the clamp.
     pub fn points(&self) -> Vec<Particle> {
         self.brick().points()
@@ -74,7 +81,7 @@ impl Beam {
         Brick { per_cell: self.per_cell, ..Brick::new([0.0, -(EMBEDDED as f64) * h], cells, h) }
     }
 
-    /// The simulation from given points, with a time step of `courant` h/c and a share of PIC.
+    /// The simulation from given points, with a time step of `courant` h/c, or its own, and a share of PIC.
     pub fn simulation(&self, points: Vec<Particle>, courant: f64, pic: f64, fault: &Fault) -> Simulation {
         let clamp = Boundary::plane("clamp", Vector2::zeros(), Vector2::new(0.0, 1.0), Friction::Bonded);
         let density = self.material.density * fault.density;
@@ -87,11 +94,11 @@ impl Beam {
         if self.mesh {
             scene.bodies[0].0.mesh = Some(self.brick().mesh([&[], &[EMBEDDED as f64 * self.spacing()]]));
         }
+        scene.bodies[0].0.implicit = self.implicit.is_some();
         scene.numerics.shape = self.shape;
         scene.numerics.pic = PicShare::Fraction(pic);
         scene.numerics.cfl = 0.9;
-        scene.numerics.max_time_step =
-            courant * self.spacing() / confined_speed(&self.material.elastic, self.material.density);
+        scene.numerics.max_time_step = self.implicit.unwrap_or(courant) * self.crossing();
         Simulation::new(scene)
     }
 }

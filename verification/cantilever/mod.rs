@@ -4,22 +4,23 @@
 //! the node. Deflections are read at the topmost row of points, at whose own height the closed forms are taken. What can go
 //! wrong: the modulus of plane strain, the clamp, the effective depth at free faces, locking of coarse cells.
 //!
-//! What theory expects of linear and uGIMP functions, two points a cell and direction, at small deflections: a bilinear cell
-//! that bends shears instead (parasitic shear) and does not follow the lateral strain, both with the mean square distance
-//! (h/4)^2 of the points from its middle; and the points sum up y^2 too low by (2 n)^-2. With n cells through the depth the
-//! beam is too stiff by (3/4 (G/E' + M/E' - 1) - 1/4) / n^2: 0.18/n^2 at Poisson's ratio 0.3, 0.125/n^2 at zero (derived here).
-//! A clamp that also prevents lateral strain stiffens the foot, which beam theory does not know: that remains on any grid, and is
-//! gone at Poisson's ratio zero, which is checked. Splines reach over the free faces, where little mass holds few nodes, and
-//! are too soft by an amount of first order.
+//! What theory expects of linear and uGIMP functions, two points a cell and direction, at small deflections: A bilinear cell that bends
+//! shears instead (parasitic shear) and does not follow the lateral strain. Both go with the mean square distance (h/4)^2 of the points
+//! from its middle. And the points sum up y^2 too low by (2 n)^-2. With n cells through the depth the beam is too stiff by (3/4 (G/E' +
+//! M/E' - 1) - 1/4) / n^2: 0.18/n^2 at Poisson's ratio 0.3, 0.125/n^2 at zero (derived here). A clamp that also prevents lateral strain
+//! stiffens the foot, which beam theory does not know: that remains on any grid, and is gone at Poisson's ratio zero, which is checked.
+//! Splines reach over the free faces, where little mass holds few nodes, and are too soft by an amount of first order.
 //!
-//! At large deflection points cross cells, and FLIP alone lets them collect motion that no node sees and no damping stops, which
-//! spoils the deflection by 3 to 30 %; one or two percent of PIC a step remove it, and cost nothing at rest. The rate law of the
-//! material differs from any other one by the strain, at most 5 % at the foot, squared.
+//! At large deflection points cross cells. FLIP alone then lets them collect motion that no node sees and no damping stops, which spoils
+//! the deflection by 3 to 30 %. One or two percent of PIC a step remove it, and cost nothing at rest. The rate law of the material differs
+//! from any other one by the strain, at most 5 % at the foot, squared.
 //!
 //! A body that moves by its mesh (`meshed`) has none of this: its stiffness is that of its elements, whatever the points.
 
 mod beam;
+mod implicit;
 mod meshed;
+mod plate;
 mod swing;
 
 use super::report::named_csv;
@@ -136,8 +137,15 @@ fn run(fault: &Fault) -> Result<Outcome, RungFailure> {
             rows.push(vec![index as f64, nu, beam.slenderness as f64, beam.cells as f64, load, error, kinetic]);
             Ok(error)
         };
-        let beam =
-            |slenderness, cells, material| Beam { shape, slenderness, cells, material, per_cell: 2, mesh: false };
+        let beam = |slenderness, cells, material| Beam {
+            shape,
+            slenderness,
+            cells,
+            material,
+            per_cell: 2,
+            mesh: false,
+            implicit: None,
+        };
         if *fault != Fault::NONE {
             // Without lateral strain the clamp does nothing, and two grids tell the stiffness to 0.2 %.
             if shape == ShapeFunction::Ugimp {

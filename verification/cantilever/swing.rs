@@ -42,7 +42,8 @@ pub fn run(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
             if *fault != Fault::NONE && (cells < 8 || shape != ShapeFunction::Ugimp) {
                 continue;
             }
-            let beam = Beam { shape, slenderness: 4, cells, material: MATERIAL, per_cell: 2, mesh: false };
+            let beam =
+                Beam { shape, slenderness: 4, cells, material: MATERIAL, per_cell: 2, mesh: false, implicit: None };
             let exact = beam.exact().frequency() / (2.0 * PI);
             let [period, energy] = vibrate(&beam, fault)?;
             rows.push(vec![index as f64, cells as f64, 1.0 / period, exact, energy]);

@@ -10,16 +10,16 @@ use std::path::{Path, PathBuf};
 /// The most words of the README, code and tables included.
 const README_WORDS: usize = 1000;
 /// The name under which the guide has its reader save its first case.
-const FIRST_CASE: &str = "sand.toml";
+pub const FIRST_CASE: &str = "sand.toml";
 
 /// The folder of the repository, above that of this package.
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     let above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
     above.into_iter().find(|folder| folder.join("CONTRIBUTING.md").exists()).expect("a repository")
 }
 
 /// Texts by their names, seen from the root: all Markdown files that are written by hand.
-fn documents() -> BTreeMap<String, String> {
+pub fn documents() -> BTreeMap<String, String> {
     fn collect(at: &Path, found: &mut Vec<PathBuf>) {
         let Ok(entries) = fs::read_dir(at) else { return };
         for path in entries.map(|entry| entry.unwrap().path()) {
@@ -39,7 +39,7 @@ fn documents() -> BTreeMap<String, String> {
 }
 
 /// The fenced blocks of a text whose first line is ``` and `kind`.
-fn blocks(text: &str, kind: &str) -> Vec<String> {
+pub fn blocks(text: &str, kind: &str) -> Vec<String> {
     let mut blocks = Vec::new();
     let mut lines = text.lines();
     while let Some(line) = lines.next() {
@@ -64,12 +64,12 @@ fn quoted(text: &str) -> Vec<&str> {
 }
 
 /// The first case of the guide.
-fn first_case() -> String {
+pub fn first_case() -> String {
     let guide = fs::read_to_string(root().join("docs/first-case.md")).unwrap();
     blocks(&guide, "toml case").remove(0)
 }
 
-fn none(what: &str, wrong: &[String]) {
+pub fn none(what: &str, wrong: &[String]) {
     assert!(wrong.is_empty(), "{what}:\n{}", wrong.join("\n"));
 }
 
@@ -184,7 +184,7 @@ fn links_lead_somewhere() {
 #[test]
 fn every_rung_stands_in_the_table_of_the_ladder() {
     let table = fs::read_to_string(root().join("verification/README.md")).unwrap();
-    let rows = RUNGS.iter().map(|rung| format!("| `{}` | ", rung.name));
+    let rows = RUNGS.iter().map(|rung| format!("| `{}` | {} |", rung.name, rung.title));
     none("rungs that are not in verification/README.md", &rows.filter(|row| !table.contains(row)).collect::<Vec<_>>());
 }
 
@@ -220,11 +220,13 @@ fn files_that_the_documents_name_exist() {
     none("files that do not exist", &wrong);
 }
 
-/// The theory manual names a file and the functions in it as `file`: `function`, `function`.
+/// The theory manual and the recipes name a file and the functions in it as `file`: `function`, `function`.
 #[test]
 fn functions_that_the_theory_names_exist() {
     let (mut wrong, mut count) = (Vec::new(), 0);
-    for (name, text) in documents().iter().filter(|(name, _)| name.starts_with("docs/theory/")) {
+    for (name, text) in
+        documents().iter().filter(|(name, _)| name.starts_with("docs/theory/") || *name == "CONTRIBUTING.md")
+    {
         for found in prose(text).split("`src/").skip(1) {
             let Some((file, rest)) = found.split_once("`:") else { continue };
             let Ok(code) = fs::read_to_string(root().join("src").join(file)) else { continue };

@@ -22,6 +22,7 @@ y_m = [-0.2, 0.8]
 
 [materials.sand]
 law = "drucker_prager"
+cone = "triaxial_compression"
 density_kg_per_m3 = 1500
 young_pa = 1.0e6
 poisson = 0.3

@@ -4,6 +4,7 @@ mod documents;
 mod interrupted;
 mod lab;
 mod run;
+mod snippets;
 mod study;
 mod suites;
 

@@ -4,16 +4,16 @@
 //! 0.3. Errors are root mean squares over the points (of equal mass) in mid-flight: after a P-wave has run 0.3 sides, over all
 //! points and over those that no wall has reached yet, and after 0.7 sides. Refinement keeps c dt/h.
 //!
-//! What theory expects. Displacements follow nodal velocities and are second order. The gradient of linear and uGIMP functions
-//! is constant within a cell, so stresses at the points, a quarter cell off its centre, err by k h/4: first order. Splines have
-//! second order in stress, but at a wall their stencil reaches a node behind it which should mirror the motion and is held
-//! instead (Steffen, Kirby and Berzins 2008): the wall costs them an order, which the interior shows by not losing it. FLIP
-//! brings the points next to a wall to a velocity of their own, for the mean at the node vanishes there: order 3/2.
-//! At large amplitude points cross cells: linear functions stop converging; the domains of uGIMP and splines do not deform, so
-//! they overlap by the strain, and the error in stress stays at a floor that no grid removes (Wallstedt and Guilkey 2008).
+//! What theory expects. Displacements follow nodal velocities and are second order. The gradient of linear and uGIMP functions is constant
+//! within a cell, so stresses at the points, a quarter cell off its centre, err by k h/4: first order. Splines have second order in stress.
+//! But at a wall their stencil reaches a node behind it which should mirror the motion and is held instead (Steffen, Kirby and Berzins
+//! 2008). So the wall costs them an order, which the interior shows by not losing it. FLIP brings the points next to a wall to a velocity
+//! of their own, for the mean at the node vanishes there: order 3/2. At large amplitude points cross cells, and linear functions stop
+//! converging. The domains of uGIMP and splines do not deform, so they overlap by the strain. The error in stress stays at a floor that no
+//! grid removes (Wallstedt and Guilkey 2008).
 //!
-//! In time the method is of first order at large strains: increments of strain refer to the start of a step, so that the sum
-//! of D falls short of ln F by the sum of D^2/2; and displacements by nodal velocities differ from the points' own by dt h^2.
+//! In time the method is of first order at large strains. Increments of strain refer to the start of a step, so that the sum of D falls
+//! short of ln F by the sum of D^2/2. And displacements by nodal velocities differ from the points' own by dt h^2.
 
 mod bar;
 mod field;

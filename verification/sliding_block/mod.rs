@@ -3,13 +3,13 @@
 //! The plane lies along the grid, or at an angle to it; gravity is turned so that the slope is what it should be. The block
 //! first settles on a plane that lets nothing slip, then the friction is set free, so that no bounce spoils the normal force.
 //!
-//! An elastic block without damping does not slide smoothly: it starts to shake, the faster the larger the friction, until its
-//! heel lifts. At 23 degrees the block of this rung then runs 54 % too far in 0.4 s. (With contact at nodes it was 68 %, 78 % on half the cell
-//! size, 66 % with a quarter of the time step, 69 % with USF, 30 % with USL, which damps.) We take it for the instability of elastic bodies that
-//! slide with Coulomb friction (mode coupling, cf. Hoffmann et al. 2002), since neither grid nor time step makes it go away;
-//! this is an inference, not a proof. What is the method's own: boundaries know velocities and no gap, so that what shook
-//! loose, up to a tenth of a cell, does not fall back. A rigid block cannot shake, so these checks use pure PIC, which takes
-//! the shaking and leaves translation alone. The table shows the undamped block, too; it is not judged.
+//! An elastic block without damping does not slide smoothly: it starts to shake, the faster the larger the friction, until its heel lifts.
+//! At 23 degrees the block of this rung then runs 54 % too far in 0.4 s. With contact at nodes it was 68 %. There it was 78 % on half the
+//! cell size, 66 % with a quarter of the time step, 69 % with USF, and 30 % with USL, which damps. We take it for the instability of
+//! elastic bodies that slide with Coulomb friction (mode coupling, cf. Hoffmann et al. 2002), since neither grid nor time step makes it go
+//! away. This is an inference, not a proof. One thing is the method's own: boundaries know velocities and no gap. So what shook loose, up
+//! to a tenth of a cell, does not fall back. A rigid block cannot shake, so these checks use pure PIC, which takes the shaking and leaves
+//! translation alone. The table shows the undamped block, too; it is not judged.
 
 mod placements;
 

@@ -4,26 +4,25 @@
 //! 0.320 and 3.124; the one through the compression meridian acts as 45.9 degrees, 0.164 and 6.09. To expect 0.320 of it is
 //! the classical false failure; the tables show both numbers.
 //!
-//! Two kinds of fill. On a *smooth base* the fill stretches equally everywhere: Rankine's state, principal stresses horizontal
-//! and vertical, is an exact solution, and force and point of action are judged closely. At constant volume that state is not
-//! stable for ever, least of all at 45.9 degrees: slip lines form, and the force leaves the closed form towards the bound
-//! named below. So the outer cone is judged by the extreme of the force on the way: actively it gets to the closed form;
-//! passively, slip lines stop it at 5.06 instead of 6.09, with 3.80 as the bound. On a *rough base* a wedge breaks
-//! out through the toe of the wall. Rankine's field is still in equilibrium, but flow at constant volume does not follow its
-//! characteristics: slip lines turn towards the planes of simple shear, on which the cone has tan(phi*) = sin(phi), 27.25
-//! instead of 31 degrees, 35.7 instead of 45.9 (Davis 1968), so that force and angle lie between
-//! two bounds. With *associated* flow the characteristics of stress and velocity are the same, and the wedge is Rankine's: its
-//! edge is inclined by 45 + phi/2 on the active side, 45 - phi/2 on the passive one, and is judged closely; the force comes near Rankine's by first order in h and is extrapolated. The toe itself is held by the base, too, which adds or takes about half a cell of pressure where it is
-//! greatest. A wedge that slides as one piece does not have Rankine's distribution either: the force acts higher than H/3,
-//! which is reported and not judged.
+//! Two kinds of fill. On a *smooth base* the fill stretches equally everywhere: Rankine's state, principal stresses horizontal and
+//! vertical, is an exact solution, and force and point of action are judged closely. At constant volume that state is not stable for ever,
+//! least of all at 45.9 degrees: slip lines form, and the force leaves the closed form towards the bound named below. So the outer cone is
+//! judged by the extreme of the force on the way: actively it gets to the closed form; passively, slip lines stop it at 5.06 instead of
+//! 6.09, with 3.80 as the bound. On a *rough base* a wedge breaks out through the toe of the wall. Rankine's field is still in equilibrium,
+//! but flow at constant volume does not follow its characteristics. Slip lines turn towards the planes of simple shear, on which the cone
+//! has tan(phi*) = sin(phi): 27.25 instead of 31 degrees, 35.7 instead of 45.9 (Davis 1968). So force and angle lie between two bounds.
+//! With *associated* flow the characteristics of stress and velocity are the same, and the wedge is Rankine's. Its edge is inclined by 45 +
+//! phi/2 on the active side, 45 - phi/2 on the passive one, and is judged closely. The force comes near Rankine's by first order in h and
+//! is extrapolated. The toe itself is held by the base, too, which adds or takes about half a cell of pressure where it is greatest. A
+//! wedge that slides as one piece does not have Rankine's distribution either: the force acts higher than H/3, which is reported and not
+//! judged.
 //!
-//! A limit load does not depend on stiffness, so the fill may be as stiff as is convenient. Full strength needs more strain
-//! than elasticity alone suggests: the cone knows the out-of-plane stress, which tends to the mean of the others as
-//! exp(-strain G/tau), a strain of 0.5 % at 1 MPa; at 10 MPa a tenth of that. Strokes stay below half a cell, within
-//! which a wall acts through the same nodes. The wall moves at a 100,000th to a 5,000th of the speed of P-waves, the slower
-//! the shorter the fill. A part of the damping that settled the fill stays on. Its force, rho d A V^2 / v for a wedge of area A
-//! that moves at V when the wall moves at v, is below 1 % of the active force and 2 % of the passive one (dilating: 2 %, with
-//! V = 2 v).
+//! A limit load does not depend on stiffness, so the fill may be as stiff as is convenient. Full strength needs more strain than elasticity
+//! alone suggests. The cone knows the out-of-plane stress, which tends to the mean of the others as exp(-strain G/tau). That takes a strain
+//! of 0.5 % at 1 MPa, and a tenth of it at 10 MPa. Strokes stay below half a cell, within which a wall acts through the same nodes. The
+//! wall moves at a 100,000th to a 5,000th of the speed of P-waves, the slower the shorter the fill. A part of the damping that settled the
+//! fill stays on. Its force is rho d A V^2 / v for a wedge of area A that moves at V when the wall moves at v. It is below 1 % of the
+//! active force and 2 % of the passive one (dilating: 2 %, with V = 2 v).
 
 mod stroke;
 

@@ -40,7 +40,7 @@ const VALUES_OUT_OF_RANGE: &[Bad] = &[
     ("young_pa = 1.0e6", "young_pa = -1.0e6", "-1.0e6", &["young_pa = -1.0e6 is not allowed"]),
     ("spacing_m = 0.01", "spacing_m = 0", "spacing_m = 0", &["grid.spacing_m = 0 ", "spacing_m > 0"]),
     ("thickness_m = 0.2", "thickness_m = -0.2", "thickness_m = -0.2", &["grid.thickness_m = -0.2"]),
-    ("angle_deg = 31", "angle_deg = 90", "= 90 ", &["friction_angle_deg = 90", "0 <= friction_angle_deg < 90"]),
+    ("angle_deg = 31", "angle_deg = 90", "angle_deg = 90\n", &["friction_angle_deg = 90", "0 <= friction_angle_deg < 90"]),
     ("angle_deg = 31", "angle_deg = 43", "= 43", &["friction_angle_deg = 43", "42.2", "cone = \"plane_strain\""]),
     ("dilatancy_angle_deg = 0", "dilatancy_angle_deg = 32", "= 32", &["<= friction_angle_deg = 31", "use 0"]),
     ("cohesion_pa = 0", "cohesion_pa = -5", "= -5", &["cohesion_pa = -5", "cohesion_pa >= 0"]),
@@ -53,11 +53,11 @@ const VALUES_OUT_OF_RANGE: &[Bad] = &[
     ("rate_hz = 1000", "rate_hz = 0", "rate_hz = 0", &["sample_rate_hz = 0"]),
     ("rate_hz = 1000", "rate_hz = 1e9", "rate_hz = 1e9", &["6.0e9", "or less"]),
     ("interval_s = 0.02", "interval_s = -1", "interval_s = -1", &["vtk_interval_s >= 0"]),
-    ("friction = 0.0 ", "friction = -0.1 ", "friction = -0.1", &["side_walls.friction = -0.1"]),
+    ("friction = 0.0", "friction = -0.1", "friction = -0.1", &["side_walls.friction = -0.1"]),
     ("duration_s = 0.5", "duration_s = 0", "duration_s = 0", &["stages.tilt.duration_s"]),
     ("inclination_deg = 40", "inclination_deg = 140", "= 140", &["-90 <= inclination_deg <= 90"]),
     ("magnitude_m_per_s2 = 9.81", "magnitude_m_per_s2 = 0", "s2 = 0", &["nothing settles without gravity"]),
-    ("height_m = 0.5", "height_m = 0", "height_m = 0 ", &["boundaries[2].height_m = 0"]),
+    ("height_m = 0.5", "height_m = 0", "height_m = 0\n", &["boundaries[2].height_m = 0"]),
 ];
 
 #[rustfmt::skip]
@@ -67,7 +67,7 @@ const FRICTION_THAT_NEEDS_SLIP: &[Bad] = &[
     ("normal_deg = 90", "normal_deg = 90\nstatic_friction = 0.5", "static_friction = 0.5", &["boundaries[0].static_friction", "only with a slip length", "slip_length_m = 0.0005"]),
     ("normal_deg = 90", "normal_deg = 90\nstatic_friction = 0.3", "static_friction = 0.3", &["at least the kinetic coefficient, friction = 0.4"]),
     ("material_side = \"right\"", "material_side = \"right\"\nslip_length_m = 0.001", "slip_length_m = 0.001", &["boundaries[1].slip_length_m", "a contact other than \"coulomb\"", "remove the line"]),
-    ("height_m = 0.5                     # [paper]\ncontact = \"smooth\"", "height_m = 0.5\nslip_length_m = 0.001\nfriction = 0.1\ncontact = \"coulomb\"", "slip_length_m = 0.001", &["boundaries[2].slip_length_m", "planes and walls with slip"]),
+    ("height_m = 0.5\ncontact = \"smooth\"", "height_m = 0.5\nslip_length_m = 0.001\nfriction = 0.1\ncontact = \"coulomb\"", "slip_length_m = 0.001", &["boundaries[2].slip_length_m", "planes and walls with slip"]),
 ];
 
 #[test]
@@ -107,13 +107,13 @@ const NAMES_AND_COMBINATIONS: &[Bad] = &[
     ("opening = \"vanish\"", "opening = \"lift\"", "[[boundaries]]\nname = \"gate\"", &["lift_speed_m_per_s is missing"]),
     ("opening = \"vanish\"", "opening_m = 0.1", "opening_m = 0.1", &["does not belong to opening = \"vanish\""]),
     ("thickness_m = 0.1\ncontact = \"coulomb\"", "opening = \"lift\"\ncontact = \"coulomb\"", "opening = \"lift\"", &["does not belong to kind = \"wall\""]),
-    ("friction = 0.4   ", "#", "[[boundaries]]\nname = \"base\"", &["boundaries[0].friction is missing"]),
-    ("contact = \"smooth\"   ", "contact = \"smooth\"\nfriction = 0.2 #", "friction = 0.2 #", &["friction = 0.2 does not belong", "contact = \"coulomb\""]),
-    ("normal_deg = 90 ", "foot_m = [0, 0] ", "foot_m = [0, 0]", &["normal_deg is missing", "foot_m = [0, 0] does not belong to kind = \"plane\""]),
+    ("friction = 0.4", "#", "[[boundaries]]\nname = \"base\"", &["boundaries[0].friction is missing"]),
+    ("contact = \"smooth\"", "contact = \"smooth\"\nfriction = 0.2 #", "friction = 0.2 #", &["friction = 0.2 does not belong", "contact = \"coulomb\""]),
+    ("normal_deg = 90", "foot_m = [0, 0]", "foot_m = [0, 0]", &["normal_deg is missing", "foot_m = [0, 0] does not belong to kind = \"plane\""]),
     ("law = \"drucker_prager\"", "law = \"linear_elastic\"", "cohesion_pa", &["cohesion_pa is not used by law", "6 problems"]),
     ("friction_angle_deg = 31", "#", "[materials.sand]", &["friction_angle_deg is missing"]),
     ("window_y_m = [0.0, 0.6]", "#", "[gauges]", &["gauges.window_y_m is missing", "give both"]),
-    ("[stages.tilt]", "[other]", "other", &["other is not a key"]), ("[stages.tilt]  ", "#", "duration_s", &["stages.settle.duration_s is not a key"]),
+    ("[stages.tilt]", "[other]", "other", &["other is not a key"]), ("[stages.tilt]", "#", "duration_s", &["stages.settle.duration_s is not a key"]),
     ("settle_inclination_deg = 0", "settle_inclination_deg = 95", "= 95", &["settle_inclination_deg = 95"]),
 ];
 
@@ -127,10 +127,10 @@ fn names_and_combinations() {
 #[rustfmt::skip]
 const GEOMETRY_AND_TIMES: &[Bad] = &[
     ("x_m = [-0.2, 0.0]", "x_m = [-0.2, 0.05]", "[-0.2, 0.05]", &["body `sand` overlaps boundary `gate`", "use x_m = [-0.2, 0]"]),
-    ("foot_m = [1.2, 0.0]", "foot_m = [-0.1, 0.0]", "x_m = [-0.2, 0.0] ", &["overlaps boundary `barrier` by 0.1 m", "use x_m = [-0.2, -0.1]"]),
+    ("foot_m = [1.2, 0.0]", "foot_m = [-0.1, 0.0]", "x_m = [-0.2, 0.0]", &["overlaps boundary `barrier` by 0.1 m", "use x_m = [-0.2, -0.1]"]),
     ("y_m = [0.0, 0.5]", "y_m = [-0.01, 0.49]", "[-0.01, 0.49]", &["overlaps boundary `base` by 0.01 m", "use y_m = [0, 0.49]"]),
     ("mass_kg = 30", "rotation_deg = 10", "x_m = [-0.2, 0.0]", &["overlaps boundary `back wall`", "move the body by ["]),
-    ("x_m = [-0.4, 1.8]", "x_m = [-0.1, 1.8]", "x_m = [-0.2, 0.0] ", &["reaches 0.1 m out of the domain"]),
+    ("x_m = [-0.4, 1.8]", "x_m = [-0.1, 1.8]", "x_m = [-0.2, 0.0]", &["reaches 0.1 m out of the domain"]),
     ("y_m = [-0.1, 1.5]", "y_m = [-0.1, 0.4]", "y_m = [0.0, 0.5]", &["out of the domain", "window_y_m[1] = 0.6"]),
     ("[[boundaries]]", "[[bodies]]\nname = \"b\"\nmaterial = \"sand\"\nx_m = [-0.1, 0.0]\ny_m = [0.4, 0.6]\n[[boundaries]]", "y_m = [0.4, 0.6]", &["body `b` overlaps body `sand`", "use y_m = [0.5, 0.6]"]),
     ("0.9, 1.1]", "0.9, 11]", "0.9, 11]", &["gauges.stations_m[4] = 11", "inside the domain"]),
@@ -164,7 +164,7 @@ const SYNTAX_KEYS_AND_TYPES: &[Bad] = &[
     ("title = ", "#", "", &["title is missing"]), ("poisson = 0.3", "poisson = \"0.3\"", "\"0.3\"", &["poisson = \"0.3\" is not allowed", "a number", "without quotes: 0.3"]),
     ("poisson = 0.3", "poisson = 0,3", "0,3", &["write decimals with a point"]),
     ("poisson = 0.3", "poisson = 0.3\npoisson = 0.2", "poisson = 0.2", &["duplicate key", "remove or rename"]),
-    ("poisson = 0.3 ", "poisson = ", "poisson = ", &["write a value after the ="]),
+    ("poisson = 0.3", "poisson = ", "poisson = ", &["write a value after the ="]),
     ("young_pa = 1.0e6", "young_pa = 1 MPa", "1 MPa", &["without a unit"]),
     ("poisson = 0.3", "poisson = .3", "poisson = .3", &["0.5"]), ("law = \"drucker_prager\"", "law = drucker_prager", "law = ", &["put text in double quotes"]),
     ("law = \"drucker_prager\"", "law = \"druker_prager\"", "druker", &["did you mean `drucker_prager`?"]),
@@ -176,6 +176,7 @@ const SYNTAX_KEYS_AND_TYPES: &[Bad] = &[
     ("at_rest = true", "at_rest = \"yes\"", "\"yes\"", &["write true or false"]),
     ("x_m = [-0.4, 1.8]", "x_m = [-0.4]", "[-0.4]", &["domain.x_m has 1 values", "two numbers"]),
     ("x_m = [-0.4, 1.8]", "x_m = [-0.4, 1, 2]", "[-0.4, 1, 2]", &["domain.x_m has 3 values"]),
+    ("thickness_m = 0.2", "origin_m = [0.004, 0.0, 5.0]\nthickness_m = 0.2", "origin_m", &["grid.origin_m has 3 values", "two numbers"]),
     ("x_m = [-0.4, 1.8]", "x_m = 1.8", "x_m = 1.8", &["two numbers such as"]),
     ("[[bodies]]", "[bodies]", "[bodies]", &["write [[bodies]], with double brackets"]),
     ("[gravity]", "[[gravity]]", "[[gravity]]", &["write [gravity], with single brackets"]),
@@ -212,7 +213,7 @@ const ACCEPTED_BEFORE: &[Bad] = &[
     ("x_m = [-0.2, 0.0]", "x_m = [-1e308, 1e308]", "[-1e308", &["bodies[0].x_m[0] = -1e308", "check the unit"]),
     ("x_m = [-0.4, 1.8]", "x_m = [-0.4, 1e15]", "1e15", &["domain.x_m[1] = 1e15"]),
     ("x_m = [-0.4, 1.8]", "x_m = [-0.4, 1e8]", "1e8", &["1.0e10 cells away", "subtract a constant"]),
-    ("height_m = 0.6                     # [paper]", "height_m = 1e8 # high", "1e8 # high", &["1e6 cells", "use height_m = 10000 or less"]),
+    ("height_m = 0.6\nthickness_m", "height_m = 1e8 # high\nthickness_m", "1e8 # high", &["1e6 cells", "use height_m = 10000 or less"]),
     ("barrier = \"barrier\"", "barrier = [\"barrier\"]", "[\"barrier\"]", &["one value, not a list", "without brackets: \"barrier\""]),
     ("x_m = [-0.2, 0.0]", "x_m = [-0.2, 0.00012345678]", "0.00012345678", &["overlaps boundary `gate`", "use x_m = [-0.2, 0]"]),
 ];

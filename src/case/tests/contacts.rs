@@ -1,4 +1,4 @@
-//! Contacts of bodies, clamps and bodies of boundaries, added to the 40 degree case.
+//! Contacts of bodies, clamps and bodies of boundaries, added to the flume.
 
 use super::{FLUME, parse, report_of};
 use crate::case::{GapKind, NormalKind};
@@ -27,7 +27,7 @@ poisson = 0.2
 
 const CONTACT: &str = "\n[[contacts]]\nbodies = [\"fence\", \"sand\"]\nfriction = 0.4\n";
 
-/// The 40 degree case with a fence whose clamp does not meet the sand, and the base for the sand alone.
+/// The flume with a fence whose clamp does not meet the sand, and the base for the sand alone.
 fn with(contact: &str) -> String {
     let base = FLUME.replacen("name = \"base\"", "name = \"base\"\nbodies = [\"sand\"]", 1);
     format!("{base}{BARRIER}{contact}")
@@ -174,8 +174,8 @@ fn several_barriers_are_a_list() {
 fn side_walls_touch_the_bodies_that_are_named() {
     let walls = |names: &str| {
         let text = with(CONTACT);
-        assert!(text.contains("friction = 0.0 "));
-        text.replacen("friction = 0.0 ", &format!("friction = 0.3\nbodies = [{names}] "), 1)
+        assert!(text.contains("friction = 0.0\n"));
+        text.replacen("friction = 0.0\n", &format!("friction = 0.3\nbodies = [{names}]\n"), 1)
     };
     let case = parse(&walls("\"sand\""), "fence.toml").unwrap_or_else(|e| panic!("{e}")).case;
     assert!(case.side_walls.act_on("sand") && !case.side_walls.act_on("fence"));
@@ -206,6 +206,14 @@ fn implicit_steps_are_for_clamped_elastic_bodies_in_contact() {
         |text: String| text.replacen("material = \"plastic\"", "material = \"plastic\"\nintegration = \"implicit\"", 1);
     let loaded = parse(&apart(&implicit(with(CONTACT))), "fence.toml").unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(loaded.case.bodies[1].integration, crate::case::Integration::Implicit);
+    // Its waves, made fifty times as fast, do not limit the step that is foreseen.
+    let mut case = loaded.case;
+    let step = case.time_step_estimate_s();
+    let stiff = case.bodies[1].material.clone();
+    case.materials.get_mut(&stiff).expect("a material").young_pa *= 2500.0;
+    assert_eq!(case.time_step_estimate_s(), step);
+    case.bodies[1].integration = crate::case::Integration::Explicit;
+    assert!(case.time_step_estimate_s() < 0.5 * step);
     for (text, part) in [
         (implicit(with(CONTACT)), "no boundary but clamps acts on"),
         (apart(&implicit(with(""))), "only for a body in [[contacts]]"),
@@ -231,18 +239,25 @@ fn a_mesh_is_for_neo_hookean_bodies_that_clamps_alone_hold() {
     let good = apart(&meshed(with(CONTACT)));
     let loaded = parse(&good, "fence.toml").unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(loaded.case.bodies[1].kinematics, crate::case::Kinematics::TotalLagrangian);
+    let implicit = good.replace("\nkinematics", "\nintegration = \"implicit\"\nkinematics");
+    let loaded = parse(&implicit, "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(loaded.case.bodies[1].integration, crate::case::Integration::Implicit);
     let clamp = |angle: u32| format!("normal_deg = {angle}\ncontact = \"bonded\"");
     for (text, part) in [
         (meshed(with(CONTACT)), "no boundary but clamps acts on"),
         (apart(&meshed(with(""))), "in [[contacts]], or the only one"),
-        (good.replace("\nkinematics", "\nintegration = \"implicit\"\nkinematics"), "only in explicit steps"),
         (good.replace("law = \"neo_hookean\"", "law = \"linear_elastic\""), "law = \"neo_hookean\""),
         (good.replace(&clamp(90), &clamp(80)), "planes along an edge"),
-        (good.replacen("friction = 0.0 ", "friction = 0.3 ", 1), "side walls do not touch"),
+        (good.replace("point_m = [1.4, 0.0]", "point_m = [1.4, -0.03]"), "clamps that reach the body"),
+        (good.replacen("friction = 0.0\n", "friction = 0.3\n", 1), "side walls do not touch"),
     ] {
         let report = report_of(&text);
         assert!(report.contains(part) && report.contains("bodies[1].kinematics = \"total_lagrangian\""), "{report}");
     }
+    let beside = good.replace("point_m = [1.4, 0.0]", "point_m = [1.4, -0.0200001]");
+    parse(&beside, "fence.toml").unwrap_or_else(|e| panic!("{e}"));
+    let report = report_of(&good.replace("\nkinematics", "\njitter = 0.2\nkinematics"));
+    assert!(report.contains("0 for a structure") && report.contains("bodies[1].jitter = 0.2"), "{report}");
     let report = report_of(&good.replace("x_m = [1.4, 1.5]", "x_m = [1.4, 1.502]"));
     assert!(report.contains("distances of its particles") && report.contains("use x_m = [1.4, 1.5]"), "{report}");
 }

@@ -1,8 +1,8 @@
 //! Bodies: their names, materials and masses, and what they may not overlap.
 
 use super::{Checker, text, text_up};
-use crate::case::boundary::{Boundary, ContactKind, Shape};
-use crate::case::geometry::{Penetration, penetration_of_plane, penetration_of_rectangle};
+use crate::case::boundary::{Boundary, ContactKind};
+use crate::case::geometry::{Penetration, penetration_of_rectangle};
 use crate::case::path::KeyPath;
 use crate::case::schema::{Body, Integration};
 use crate::case::suggest::did_you_mean;
@@ -148,13 +148,7 @@ impl Checker<'_> {
         let solid = |b: &&Boundary| b.acts_on(&body.name) && b.contact != ContactKind::Bonded;
         let usable = self.case.boundaries.iter().zip(usable).filter(|(b, usable)| **usable && solid(b));
         for (boundary, _) in usable {
-            let Some(shape) = boundary.shape(&self.case.grid) else { continue };
-            let penetration = match shape {
-                Shape::Plane { point_m, normal_deg } => penetration_of_plane(&body.corners_m(), point_m, normal_deg),
-                Shape::Wall(wall) | Shape::Gate(wall, _) => {
-                    penetration_of_rectangle(&body.corners_m(), &wall.corners_m())
-                }
-            };
+            let Some(penetration) = boundary.penetration(body, &self.case.grid) else { continue };
             self.overlap(at, body, penetration, &format!("boundary `{}`", boundary.name));
         }
     }

@@ -4,8 +4,7 @@
 use super::bodies::{MASS_TOLERANCE, has_geometry};
 use super::walls::narrow_openings;
 use super::{Problem, text, text_down, toml_text};
-use crate::case::boundary::{Boundary, ContactKind, Shape};
-use crate::case::geometry::{penetration_of_plane, penetration_of_rectangle};
+use crate::case::boundary::{Boundary, ContactKind};
 use crate::case::path::KeyPath;
 use crate::case::schema::{Body, Case, Kinematics};
 use crate::simulation::PicShare;
@@ -58,12 +57,8 @@ fn is_barrier(case: &Case, body: &Body) -> bool {
 /// A barrier that is a body and that nothing holds.
 fn loose(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
     let touches = |b: &Boundary| {
-        let depth = match b.shape(&case.grid)? {
-            Shape::Plane { point_m, normal_deg } => penetration_of_plane(&body.corners_m(), point_m, normal_deg),
-            Shape::Wall(wall) | Shape::Gate(wall, _) => penetration_of_rectangle(&body.corners_m(), &wall.corners_m()),
-        };
         // Points lie up to half a cell inside the edge.
-        Some(depth.depth_m > -0.5 * case.grid.spacing_m)
+        Some(b.penetration(body, &case.grid)?.depth_m > -0.5 * case.grid.spacing_m)
     };
     let clamps = |b: &&Boundary| b.acts_on(&body.name) && b.contact == ContactKind::Bonded;
     let held = case.boundaries.iter().filter(clamps).any(|b| touches(b).unwrap_or(true));

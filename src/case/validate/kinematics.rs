@@ -1,24 +1,32 @@
 //! Bodies in total-Lagrangian kinematics: what they are made of, and what may act on them. Structures of either kinematics: their sides.
 
 use super::{Checker, text};
+use crate::case::angle::direction;
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind};
-use crate::case::geometry::direction;
 use crate::case::grid::Filling;
 use crate::case::material::Law;
 use crate::case::path::KeyPath;
-use crate::case::schema::{Body, Integration, Kinematics};
+use crate::case::schema::{Body, Kinematics};
 
 /// Cosine of the angle between a clamp and an edge of a body that is round-off.
 const SQUARE: f64 = 1.0e-9;
+/// Share of the distance of particles by which a clamp may miss an edge of a mesh and still hold it.
+const HELD_WITHIN: f64 = crate::simulation::HELD_WITHIN;
 /// Share of the distance of particles by which the side of a body may miss a multiple of it.
 const MULTIPLE: f64 = 1.0e-6;
 
 impl Checker<'_> {
     pub(super) fn kinematics(&mut self, at: &KeyPath, body: &Body) {
-        if body.kinematics != Kinematics::TotalLagrangian {
-            let named = |name: Option<&str>| name == Some(body.name.as_str());
-            let structure = self.case.contacts.iter().any(|c| named(c.structure_name()))
-                || self.case.gauges.barrier_names().any(|name| name == body.name);
+        let named = |name: Option<&str>| name == Some(body.name.as_str());
+        let structure = self.case.contacts.iter().any(|c| named(c.structure_name()))
+            || self.case.gauges.barrier_names().any(|name| name == body.name);
+        let by_mesh = body.kinematics == Kinematics::TotalLagrangian;
+        if (structure || by_mesh) && body.jitter > 0.0 {
+            let allowed = "0 for a structure, whose faces are traced along the lattice of its particles";
+            let fix = "leave it out; in a study: replicates.bodies = [...] without it";
+            self.not_allowed(&at.key("jitter"), &body.jitter, allowed, fix);
+        }
+        if !by_mesh {
             if structure && self.case.grid.filling == Filling::Fitted {
                 self.multiples(at, body, "a structure, whose faces are traced along particles as far apart both ways");
             }
@@ -32,9 +40,8 @@ impl Checker<'_> {
         let law = self.case.materials.get(&body.material).map(|m| m.law);
         let alone = self.case.bodies.len() > 1 && !self.case.contacts.iter().any(|c| c.bodies.contains(&body.name));
         let walls = &self.case.side_walls;
-        let (allowed, fix) = if body.integration == Integration::Implicit {
-            ("\"total_lagrangian\" only in explicit steps", "remove the line integration = \"implicit\"".to_owned())
-        } else if law.is_some_and(|law| law != Law::NeoHookean) {
+        let near = HELD_WITHIN * body.particle_spacing_m(&self.case.grid);
+        let (allowed, fix) = if law.is_some_and(|law| law != Law::NeoHookean) {
             (
                 "\"total_lagrangian\" only for a body with law = \"neo_hookean\"",
                 "use that law, or remove the line".to_owned(),
@@ -49,6 +56,11 @@ impl Checker<'_> {
         } else if let Some(boundary) = boundaries().find(|b| !is_square(b, body)) {
             let fix = format!("turn boundary `{}` to an edge of the body, or remove the line", boundary.name);
             ("\"total_lagrangian\" only with clamps that are planes along an edge of the body", fix)
+        } else if let Some((boundary, gap)) =
+            boundaries().find_map(|b| Some((b, beside(b, body)?)).filter(|(_, gap)| *gap > near))
+        {
+            let fix = format!("move boundary `{}` by {} m against its normal, or the body", boundary.name, text(gap));
+            ("\"total_lagrangian\" only with clamps that reach the body", fix)
         } else if walls.friction > 0.0 && walls.act_on(&body.name) {
             let fix = format!("name the others: side_walls.bodies = [...] without `{}`", body.name);
             ("\"total_lagrangian\" only for a body that side walls do not touch", fix)
@@ -81,4 +93,11 @@ fn is_square(boundary: &Boundary, body: &Body) -> bool {
     };
     let [c, s] = direction(angle - body.rotation_deg);
     c.abs().min(s.abs()) < SQUARE
+}
+
+/// How far a plane is from a body before it, m; negative where it reaches into the body, `None` where it lacks what says so.
+fn beside(boundary: &Boundary, body: &Body) -> Option<f64> {
+    let ([nx, ny], [x, y]) = (direction(boundary.normal_deg?), boundary.point_m?);
+    let heights = body.corners_m().map(|c| (c[0] - x) * nx + (c[1] - y) * ny);
+    Some(heights.into_iter().fold(f64::INFINITY, f64::min))
 }

@@ -2,8 +2,8 @@
 
 use super::{Checker, Problem, text, text_down, toml_text};
 use crate::boundary::BoundaryContact;
+use crate::case::angle::direction;
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind, Wall};
-use crate::case::geometry::direction;
 use crate::case::path::KeyPath;
 use crate::case::schema::Case;
 

@@ -3,8 +3,9 @@
 use super::doubts::doubts;
 use super::walls::narrow_openings;
 use super::{Problem, text, toml_text};
+use crate::case::angle::direction;
 use crate::case::boundary::{Boundary, Shape};
-use crate::case::geometry::{direction, penetration_of_rectangle};
+use crate::case::geometry::penetration_of_rectangle;
 use crate::case::grid::Domain;
 use crate::case::material::Material;
 use crate::case::path::KeyPath;

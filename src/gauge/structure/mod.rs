@@ -16,6 +16,7 @@ use super::reaction::ReactionGauge;
 use crate::boundary::Boundary;
 use crate::contact::Vector;
 use crate::contact::outline::{Outline, Surface};
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 use nalgebra::Vector2;
 
@@ -78,6 +79,8 @@ pub struct StructureGauge {
     clamp: ReactionGauge,
     other: [f64; 2],
     momentum: [f64; 2],
+    /// Barriers, by index of the body: none of them runs up at it or passes it.
+    structures: Vec<usize>,
     /// Mass behind it when the gauge was opened, kg.
     behind: f64,
     /// -1 where overturning is clockwise.
@@ -106,6 +109,7 @@ impl StructureGauge {
             clamp: ReactionGauge::new(),
             other: [0.0; 2],
             momentum: [0.0; 2],
+            structures: Vec::new(),
             behind: 0.0,
             turn,
         };
@@ -116,6 +120,12 @@ impl StructureGauge {
     /// Index of the body.
     pub fn body(&self) -> usize {
         self.body
+    }
+
+    /// Leaves out bodies, by index, that are barriers themselves: they neither run up at it nor lie behind it. The next interval begins now.
+    pub fn leave_out(&mut self, simulation: &Simulation, structures: &[usize]) {
+        self.structures = structures.to_vec();
+        self.open(simulation);
     }
 
     /// Mass behind it now, in the domain, kg.
@@ -150,7 +160,7 @@ impl StructureGauge {
         self.contact.add(impulse, 0.0, dt, time);
         let (mut impulse, mut moment) = ([0.0; 2], 0.0);
         for (boundary, tally) in simulation.boundaries().iter().zip(simulation.step_tallies_of(self.body)) {
-            let arm = boundary.foot() - foot;
+            let arm = (boundary.foot() - foot) * if seeded::is(Seed::GaugeClampArm) { 0.0 } else { 1.0 };
             let p = tally.impulse.map(|p| -p);
             impulse = [impulse[0] + p[0], impulse[1] + p[1]];
             moment += -tally.moment + arm.x * p[1] - arm.y * p[0];
@@ -166,7 +176,7 @@ impl StructureGauge {
         let (contact, clamp) = (self.contact.sample(), self.clamp.sample());
         let now = self.momentum_now(simulation);
         let per = if contact.duration > 0.0 { 1.0 / contact.duration } else { 0.0 };
-        let rate = [0, 1].map(|d| (now[d] - self.momentum[d]) * per);
+        let rate = [0, 1].map(|d| seeded::times(Seed::GaugeInertia, now[d] - self.momentum[d]) * per);
         let other = self.other.map(|p| p * per);
         let left = [0, 1].map(|d| contact.force[d] + other[d] - clamp.force[d] - rate[d]);
         let size = |p: [f64; 2]| Vector2::from(p).norm();

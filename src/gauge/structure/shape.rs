@@ -3,6 +3,7 @@
 use super::StructureGauge;
 use crate::constitutive::{Finger, Law};
 use crate::contact::Vector;
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 use nalgebra::Vector2;
 
@@ -70,6 +71,7 @@ impl StructureGauge {
             let (place, start) = (self.points[id]?, self.start[id]);
             let height = self.face.face_coordinates(start).1;
             let deflection = -(Vector2::from(place.x) - Vector2::from(start)).dot(&n);
+            let deflection = seeded::times(Seed::GaugeDeflection, deflection);
             (height > 0.0).then(|| ProfilePoint { height, deflection, velocity: -Vector2::from(place.v).dot(&n) })
         });
         found.collect()

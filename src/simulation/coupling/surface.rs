@@ -3,10 +3,11 @@
 use super::faces::Batch;
 use super::scan::{Marks, Near};
 use super::{Pending, SharedNode, SharedSide, VelocityField};
-use crate::contact::normal::{GradientRule, Sample, from_gradients, from_positions};
+use crate::contact::normal::{Sample, from_difference, from_larger, from_positions};
 use crate::contact::outline::{Nearest, Outline, Surface};
 use crate::contact::rule::{ContactRule, ContactTally, GapRule, NormalRule};
 use crate::contact::{Vector, regression, separation};
+use crate::seeded::{self, Seed};
 use crate::shape::ShapeFunction;
 use crate::space::{direction, dot, minus, norm, plus, scaled};
 
@@ -57,8 +58,10 @@ pub(super) struct Interface {
 
 impl Interface {
     pub fn new(number: usize, rule: ContactRule, fields: &[VelocityField]) -> Self {
-        let of =
-            |body: usize| fields.iter().position(|f| f.members == [body]).expect("a field for each body in contact");
+        let of = |body: usize| {
+            let own = fields.iter().position(|f| f.members == [body]);
+            own.expect("the simulation gives each body that a contact names a field of its own")
+        };
         let pair = rule.bodies.map(of);
         let points = |f: usize| fields[f].particles().map(|(_, p)| (p.id, p.x)).collect::<Vec<_>>();
         let (mut outline, mut surfaces) = (Outline::default(), Vec::new());
@@ -194,6 +197,7 @@ impl Interface {
         self.find_normals(nodes, h);
         self.measure_extents(fields, shape, nodes);
         self.marks.iter_mut().for_each(Marks::clear);
+        let early = if seeded::is(Seed::ContactExtents) { 0.05 * h } else { 0.0 };
         for &k in &self.active {
             let view = &self.views[k];
             let Some(normal) = view.normal else { continue };
@@ -204,7 +208,7 @@ impl Interface {
                 GapRule::Displacements => (separation::from_displacements(a, b, normal) <= 0.0, 0.0),
                 GapRule::Extents => (
                     view.extents.iter().all(|e| e.is_finite()),
-                    separation::slack(-view.extents[0] - view.extents[1], dt),
+                    separation::slack(-view.extents[0] - view.extents[1] - early, dt),
                 ),
             };
             if touching {
@@ -277,10 +281,10 @@ impl Interface {
             let view = &mut self.views[k];
             let x = nodes[view.node].x;
             let [a, b] = &view.samples;
-            let gradient = |rule| from_gradients(rule, a, b, 1e-9 * (a.volume + b.volume) / h);
+            let least = 1e-9 * (a.volume + b.volume) / h;
             view.normal = match self.rule.normal {
-                NormalRule::LargerBody => gradient(GradientRule::Larger).or_else(|| from_positions(a, b)),
-                NormalRule::Average => gradient(GradientRule::Average).or_else(|| from_positions(a, b)),
+                NormalRule::LargerBody => from_larger(a, b, least).or_else(|| from_positions(a, b)),
+                NormalRule::Average => from_difference(a, b, least).or_else(|| from_positions(a, b)),
                 NormalRule::Regression => regression::normal(&view.clouds[0], &view.clouds[1], x, h),
                 NormalRule::Prescribed(n) => Some(n),
                 NormalRule::NearestFace(0) => direction(view.faces, 0.0),

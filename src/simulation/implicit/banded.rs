@@ -4,7 +4,7 @@
 
 /// The lower half of a symmetric matrix, row by row: each row ends on the diagonal.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Banded {
+pub(in crate::simulation) struct Banded {
     size: usize,
     /// Entries left of the diagonal in a row.
     reach: usize,
@@ -25,6 +25,11 @@ impl Banded {
     pub fn add(&mut self, i: usize, j: usize, value: f64) {
         let at = self.at(i, j);
         self.rows[at] += value;
+    }
+
+    /// Becomes a matrix of zeros again.
+    pub fn clear(&mut self) {
+        self.rows.fill(0.0);
     }
 
     /// Becomes a times another matrix of the same shape.
@@ -137,7 +142,9 @@ impl Blocks {
     pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
         let add = |sum: &mut [f64; 2], blocks: &[(u32, [[f64; 2]; 2])]| {
             for (other, [a, b]) in blocks {
-                let at: &[f64; 2] = x[2 * *other as usize..].first_chunk().expect("two entries for each node");
+                let at: &[f64; 2] = x[2 * *other as usize..]
+                    .first_chunk()
+                    .expect("the vector is as long as the matrix: two entries for each node");
                 *sum = [sum[0] + a[0] * at[0], sum[1] + a[1] * at[0]];
                 *sum = [sum[0] + b[0] * at[1], sum[1] + b[1] * at[1]];
             }

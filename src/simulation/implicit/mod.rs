@@ -10,31 +10,29 @@
 //! functions and points are those of everything else. A sort follows after half a cell of motion, so turns may be large
 //! although every piece between sorts is linear; what is neglected is the stiffness that stress itself gives.
 //!
-//! A swing of angular frequency w is damped by `(2 theta - 1) w dt/2` of critical, and a wave that is much too fast for
-//! the step keeps `(1 - theta)/theta` of its velocity from step to step. With theta = 1 (implicit Euler) a stiff
-//! barrier bends 1 to 2 % less; with 1/2 nothing dies out, and contact, whose law holds at the end of a
-//! step, feeds waves until sand flies off. [`THETA`] lies between: a fifth of Euler's damping, and what cannot be
-//! followed is down to a percent after twelve steps. What it takes is measured.
+//! A swing of angular frequency w is damped by `(2 theta - 1) w dt/2` of critical, and a wave that is much too fast for the step keeps
+//! `(1 - theta)/theta` of its velocity from step to step. With theta = 1 (implicit Euler) a stiff barrier bends 1 to 2 % less. With 1/2
+//! nothing dies out, and contact, whose law holds at the end of a step, feeds waves until sand flies off. [`THETA`] lies between: a fifth
+//! of Euler's damping, and what cannot be followed is down to a percent after twelve steps. What it takes is measured.
 //!
-//! Contact and body are solved together by block Gauss-Seidel iteration (Jean 1999): contact is solved node by node as
-//! for any body, with the velocity that the node has under the latest impulses at all other nodes and a mass that is
-//! never more than the body shows at this node, until impulses no longer change: then body and contact law agree at
-//! every node. Where they do not, the ledger counts losses that no body has had, so that the energy does not close.
+//! Contact and body are solved together by block Gauss-Seidel iteration (Jean 1999). Contact is solved node by node as for any body. It is
+//! given the velocity that the node has under the latest impulses at all other nodes, and a mass that is never more than the body shows at
+//! this node. That is repeated until impulses no longer change: then body and contact law agree at every node. Where they do not, the
+//! ledger counts losses that no body has had, so that the energy does not close.
 //!
-//! Beyond a face along the grid, uGIMP gives a node a weight w at its points and a gradient of the order of sqrt(w)/h:
-//! mass and stiffness of the node fall as w, the force of a stress as sqrt(w) only, and it moves at w^(-1/2) times the
-//! velocity of others (other functions and corners have other powers). Strains of its points need that motion; their
-//! velocities do not see it, but another body at the node does, and would be given energy that no point of this one has
-//! lost. Contact therefore leaves nodes out where the body has next to no mass ([`TOUCHABLE`]). The share is no derived
-//! number: 1e-4, 1e-3 and 1e-2 gave the same forces and energies within a percent, contact begins a few hundredths of a
-//! cell later. Explicit steps start each step from the points and forget such motion.
+//! Beyond a face along the grid, uGIMP gives a node a weight w at its points and a gradient of the order of sqrt(w)/h. Mass and stiffness
+//! of the node fall as w, but the force of a stress only as sqrt(w). So the node moves at w^(-1/2) times the velocity of others (other
+//! functions and corners have other powers). Strains of its points need that motion, and their velocities do not see it. Another body at
+//! the node does see it, and would be given energy that no point of this one has lost. Contact therefore leaves nodes out where the body
+//! has next to no mass ([`TOUCHABLE`]). The share is no derived number: 1e-4, 1e-3 and 1e-2 gave the same forces and energies within a
+//! percent, contact begins a few hundredths of a cell later. Explicit steps start each step from the points and forget such motion.
 //!
 //! Elsewhere: the free motion is the predictor and contact the corrector; the answers of nodes to impulses are the
 //! contact compliance (Delassus operator); the iteration is a partitioned or staggered solution. It has a warm start:
 //! nodes that stay in touch begin with their impulses of the last step.
 
 mod assembly;
-mod banded;
+pub(super) mod banded;
 mod motion;
 
 use super::field::VelocityField;
@@ -48,7 +46,7 @@ use banded::{Banded, Blocks};
 pub(super) const PASSES: usize = 1000;
 pub(super) const SETTLED: f64 = 1e-7;
 /// Weight of the end of a step in its forces and velocities.
-const THETA: f64 = 0.6;
+pub(super) const THETA: f64 = 0.6;
 /// Share of the mass of its fullest node from which on contact acts on a node.
 const TOUCHABLE: f64 = 1e-3;
 
@@ -242,6 +240,11 @@ impl ImplicitBody {
     /// Whether it is.
     pub fn is_touched(&self, slot: usize) -> bool {
         self.shared[slot].touched
+    }
+
+    /// Mass of the points at a shared node, kg, not that which answers an impulse there; None where they have none.
+    pub fn mass_at(&self, slot: usize) -> Option<f64> {
+        self.mass.get(self.shared[slot].node).copied()
     }
 
     /// Finds how each touched node answers an impulse at each.

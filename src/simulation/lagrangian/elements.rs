@@ -55,6 +55,35 @@ impl Elements {
         found
     }
 
+    /// Hands out the stiffness under a displacement (m), element by element: for each two of its nodes how the force of the stresses at the
+    /// first falls with the displacement of the second, xx, xy, yx, yy in N/m.
+    pub fn stiffen(&self, law: &NeoHookean, displacement: &[[f64; 2]], mut each: impl FnMut(u32, u32, [f64; 4])) {
+        for part in &self.parts {
+            let u = part.nodes.map(|n| displacement[n as usize]);
+            let mut blocks = [[[0.0; 4]; NODES]; NODES];
+            for point in &self.shapes[part.shape] {
+                let volume = point.area * self.depth;
+                let tangent = law.tangent(&gradient(&u, &point.gradient)).map(|row| row.map(|c| volume * c));
+                for (row, g) in blocks.iter_mut().zip(&point.gradient) {
+                    // Along the gradient of the first function: rows of x and y.
+                    let along: [[f64; 4]; 2] = [0, 1]
+                        .map(|d| std::array::from_fn(|l| g[0] * tangent[2 * d][l] + g[1] * tangent[2 * d + 1][l]));
+                    for (block, h) in row.iter_mut().zip(&point.gradient) {
+                        for (k, sum) in block.iter_mut().enumerate() {
+                            let [d, e] = [k / 2, k % 2];
+                            *sum += along[d][2 * e] * h[0] + along[d][2 * e + 1] * h[1];
+                        }
+                    }
+                }
+            }
+            for (n, row) in part.nodes.iter().zip(&blocks) {
+                for (m, block) in part.nodes.iter().zip(row) {
+                    each(*n, *m, *block);
+                }
+            }
+        }
+    }
+
     /// Puts the forces of the stresses under a displacement (m) into `forces` (N).
     pub fn strain(&self, law: &NeoHookean, displacement: &[[f64; 2]], forces: &mut [[f64; 2]]) -> Strained {
         forces.fill([0.0; 2]);

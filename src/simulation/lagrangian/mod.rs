@@ -4,10 +4,10 @@
 //!
 //! `m_i a_i = m_i g - sum_q V_q P(F_q) grad0 N_i(X_q) + J_i + R_i`, with `F_q = I + sum_i u_i grad0 N_i(X_q)`,
 //!
-//! at the Gauss points q of its elements, with the nominal stress P, the impulses of contact J and those of clamps R. So no
-//! point ever leaves a cell, nodes see all that points do, and the deformation is the one of the reference configuration whatever the way
-//! there: nothing tears, and the energy stays but for the time steps (Zienkiewicz and Taylor 2000; for material points de Vaucorbeil,
-//! Nguyen and Hutchinson 2020). Steps are those of everything else, symplectic Euler.
+//! at the Gauss points q of its elements, with the nominal stress P, the impulses of contact J and those of clamps R. So no point ever
+//! leaves a cell, nodes see all that points do, and the deformation is the one of the reference configuration whatever the way there.
+//! Nothing tears, and the energy stays but for the time steps (Zienkiewicz and Taylor 2000; for material points de Vaucorbeil, Nguyen and
+//! Hutchinson 2020). Steps are those of everything else, symplectic Euler.
 //!
 //! Clamps hold the nodes at their plane and behind it. Other bodies are met on the background grid: the material points, which lie in
 //! the mesh with weights N_i(X_p), show the body there, and what happens to them happens to the nodes. With the weights w_Ip of the
@@ -15,9 +15,9 @@
 //!
 //! `v_I = sum_i c_Ii v_i` with `c_Ii = sum_p w_Ip m_p N_i(X_p) / sum_p w_Ip m_p`,
 //!
-//! and an impulse J_I there is the impulse `c_Ii J_I` on node i. As the c of a background node add up to one, so do impulses; and since both
-//! have the same weights, the work of contact is the energy that the nodes get. Contact is told the mass `1 / sum_i (c_Ii^2 / m_i)`
-//! that the body shows at the background node, and is repeated from node to node until it no longer changes what the body does (block
+//! and an impulse J_I there is the impulse `c_Ii J_I` on node i. As the c of a background node add up to one, so do impulses; and since
+//! both have the same weights, the work of contact is the energy that the nodes get. Contact is told the mass `1 / sum_i (c_Ii^2 / m_i)`
+//! that the body shows at the background node. It is repeated from node to node until it no longer changes what the body does (block
 //! Gauss-Seidel iteration, Jean 1999), as for bodies in implicit steps.
 //!
 //! Elsewhere: explicit finite elements with lumped masses, coupled to material points by contact on the background grid (Lian, Zhang and Liu
@@ -25,6 +25,7 @@
 
 mod elements;
 mod motion;
+mod newton;
 #[cfg(test)]
 mod tests;
 mod touch;
@@ -38,6 +39,7 @@ use crate::mesh::{Element, NODES, Place};
 use crate::space::{dot, minus, plus, scaled};
 use elements::Elements;
 pub(in crate::simulation) use motion::Acting;
+use newton::Solver;
 use touch::Touching;
 
 /// Share of the time step at which the highest mode of an element would grow that is used at most.
@@ -100,7 +102,12 @@ pub(in crate::simulation) struct LagrangianBody {
     damped: Vec<[f64; 2]>,
     driven: Vec<[f64; 2]>,
     touching: Touching,
+    /// For implicit steps; none in explicit ones.
+    solver: Option<Box<Solver>>,
 }
+
+/// Share of the distance of points by which a clamp may miss a node of the mesh and still holds it: drawings are typed to some digits.
+pub const HELD_WITHIN: f64 = 1e-3;
 
 /// The bodies in total-Lagrangian kinematics, each of which has a velocity field of its own.
 ///
@@ -115,6 +122,7 @@ impl LagrangianBody {
     fn new(number: usize, field: &VelocityField, boundaries: &[Boundary]) -> Self {
         let body = &field.bodies[0];
         let AnyLaw::NeoHookean(law) = body.law else {
+            // A case with such a body is refused; a scene made in code can have one.
             panic!("body `{}` moves by its mesh, which only neo-Hookean bodies do", body.name)
         };
         let mut found = Self { field: number, law: Some(law), ..Self::default() };
@@ -144,6 +152,7 @@ impl LagrangianBody {
         ] {
             values.resize(n, [0.0; 2]);
         }
+        found.solver = body.implicit.then(|| Box::new(Solver::new(mesh)));
         found.set_velocities(body, &particles, boundaries);
         found.strain();
         found
@@ -152,7 +161,7 @@ impl LagrangianBody {
     /// Finds the nodes that clamps hold: those on their surface and inside.
     fn hold(&mut self, field: &VelocityField, boundaries: &[Boundary]) {
         self.held = vec![false; self.start.len()];
-        let near = 1e-6 * field.bodies[0].point_spacing;
+        let near = HELD_WITHIN * field.bodies[0].point_spacing;
         for (boundary, b) in boundaries.iter().enumerate() {
             if b.friction != Friction::Bonded || !b.acts_on(&field.members) {
                 continue;
@@ -163,6 +172,11 @@ impl LagrangianBody {
                 }
             }
         }
+    }
+
+    /// Smallest volume ratio at an element's own points.
+    pub fn smallest(&self) -> f64 {
+        self.smallest
     }
 
     /// Gives the nodes the velocities of the points, by least squares: what is linear in space first, then the rest.
@@ -198,10 +212,15 @@ impl LagrangianBody {
         self.longest = STABLE * 2.0 / now.fastest.sqrt();
     }
 
+    /// Whether its steps are implicit.
+    pub fn is_implicit(&self) -> bool {
+        self.solver.is_some()
+    }
+
     /// Longest time step that is stable in the present configuration, s: for an element of the mesh by itself, which none of the body's modes
-    /// is faster than (Irons and Treharne 1971).
+    /// is faster than (Irons and Treharne 1971). Implicit steps have no such limit.
     pub fn longest_step(&self) -> f64 {
-        self.longest
+        if self.is_implicit() { f64::INFINITY } else { self.longest }
     }
 
     /// Follows a sort of its field.
@@ -230,7 +249,8 @@ impl LagrangianBody {
                 s.gravitational -= m * dot(gravity, x);
                 force = plus(force, scaled(gravity, m));
             }
-            let after = if self.held[node] { v } else { plus(v, scaled(force, dt / m)) };
+            // In implicit steps velocities are those of now.
+            let after = if self.held[node] || self.is_implicit() { v } else { plus(v, scaled(force, dt / m)) };
             s.kinetic += 0.5 * m * dot(v, after);
         }
         s

@@ -7,6 +7,7 @@ use crate::boundary::nodes::Tally;
 use crate::constitutive::{Finger, NeoHookean};
 use crate::ledger::Distributed;
 use crate::momentum::BodyForces;
+use crate::seeded::{self, Seed};
 use crate::shape::ShapeFunction;
 use crate::simulation::AccelerationField;
 use crate::simulation::field::VelocityField;
@@ -39,9 +40,8 @@ impl LagrangianBody {
             let given = plus(plus(scaled(self.internal[node], dt), self.damped[node]), self.driven[node]);
             self.next[node] = plus(old, plus(scaled(given, 1.0 / m), scaled(forces.gravity, dt)));
         }
-        for c in &self.clamped {
-            self.next[c.node] = acting.boundaries[c.boundary].velocity.into();
-        }
+        self.hold_next(acting.boundaries);
+        self.solve_free(acting, forces);
         self.show_free(&mut field, acting.shape);
         self.own = field;
     }
@@ -71,10 +71,16 @@ impl LagrangianBody {
             band.sums = Default::default();
             band.sums.min_volume_ratio = f64::INFINITY;
         }
-        self.book(&mut field, acting);
+        let implicit = self.solve_touched(field.forces(acting.forces).gravity);
+        let force = implicit.as_ref().map_or(&self.internal, |(force, _)| force);
+        self.book(&mut field, acting, force);
         std::mem::swap(&mut self.velocity, &mut self.next);
-        for (u, v) in self.displacement.iter_mut().zip(&self.velocity) {
-            *u = plus(*u, scaled(*v, acting.dt));
+        if implicit.is_some() {
+            self.take_end();
+        } else {
+            for (u, v) in self.displacement.iter_mut().zip(&self.velocity) {
+                *u = plus(*u, scaled(*v, acting.dt));
+            }
         }
         let before = self.elastic;
         self.strain();
@@ -82,17 +88,19 @@ impl LagrangianBody {
         self.move_points(&mut field);
         let sums = &mut field.bands[0].sums;
         sums.internal_work = stored;
+        let taken = implicit.map_or(0.0, |(_, taken)| taken - stored);
+        sums.pic_loss = seeded::times(Seed::SimulationTaken, taken);
         sums.min_volume_ratio = sums.min_volume_ratio.min(self.smallest);
         self.show(&mut field);
         self.own = field;
     }
 
     /// Books what acted on the nodes from outside, but gravity and contact. What is missing to the momentum balance of a clamped node
-    /// comes from its clamp.
-    fn book(&self, field: &mut VelocityField, acting: &Acting) {
+    /// comes from its clamp. `force` is that of the stresses in the step, N.
+    fn book(&self, field: &mut VelocityField, acting: &Acting, force: &[[f64; 2]]) {
         let (forces, dt) = (field.forces(acting.forces), acting.dt);
         let mut contact = vec![[0.0; 2]; self.mass.len()];
-        self.add_contact(&mut contact);
+        self.add_contact(true, &mut contact);
         let band = &mut field.bands[0];
         for node in 0..self.mass.len() {
             let mean = mean(self.velocity[node], self.next[node]);
@@ -105,7 +113,7 @@ impl LagrangianBody {
         }
         for c in &self.clamped {
             let (m, old, new) = (self.mass[c.node], self.velocity[c.node], self.next[c.node]);
-            let given = plus(scaled(plus(self.internal[c.node], scaled(forces.gravity, m)), dt), contact[c.node]);
+            let given = plus(scaled(plus(force[c.node], scaled(forces.gravity, m)), dt), contact[c.node]);
             let given = plus(given, plus(self.damped[c.node], self.driven[c.node]));
             let impulse = minus(scaled(minus(new, old), m), given);
             let x = plus(self.start[c.node], self.displacement[c.node]);

@@ -18,19 +18,22 @@ const HELD: f64 = 1e-12;
 
 /// A node of the background grid that other fields reach.
 #[derive(Debug, Clone, Default)]
-struct Shared {
+pub(super) struct Shared {
     band: usize,
     index: usize,
     /// Mass and momenta of the points there, at the start of the step and without contact: kg, N s.
     mass: f64,
     momentum: [[f64; 2]; 2],
     /// Contact impulse of the step, N s.
-    impulse: [f64; 2],
-    touched: bool,
+    pub impulse: [f64; 2],
+    pub touched: bool,
     /// Its coefficients, among those of all touched nodes.
-    own: Range<usize>,
-    /// Velocity per impulse, 1/kg.
-    mobility: f64,
+    pub own: Range<usize>,
+    /// Velocity per impulse, 1/kg: what contact is told, and what of it is of nodes that clamps hold.
+    pub mobility: f64,
+    pub held: f64,
+    /// Place among the touched nodes, for a body in implicit steps.
+    pub rank: usize,
 }
 
 /// What a background node sees of a point.
@@ -45,7 +48,7 @@ struct Seen {
 /// The background nodes where the body may meet others.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Touching {
-    shared: Vec<Shared>,
+    pub shared: Vec<Shared>,
     /// First of the shared nodes of each band.
     slots: Vec<usize>,
     /// Number of the shared node at each node of the grid.
@@ -54,7 +57,7 @@ pub(super) struct Touching {
     /// What touched nodes see, in their order.
     sorted: Vec<Seen>,
     /// Nodes of the mesh with their shares of the velocity at touched nodes.
-    shares: Vec<(u32, f64)>,
+    pub shares: Vec<(u32, f64)>,
     /// Place in `shares` of each node of the mesh while those of a touched node are found.
     places: Vec<u32>,
     /// Largest change of a velocity in this sweep and the largest velocity that contact gave, m/s.
@@ -141,7 +144,7 @@ impl LagrangianBody {
 
     /// Finds how the nodes of the mesh move touched nodes, and begins with the impulses of the last step.
     pub fn weigh(&mut self) {
-        let Self { touching: t, points, mass, held, next, .. } = self;
+        let Self { touching: t, points, mass, held, next, solver, .. } = self;
         t.change = [0.0; 2];
         let mut count = 0;
         for s in &mut t.shared {
@@ -169,17 +172,22 @@ impl LagrangianBody {
             }
             s.own = count..t.shares.len();
             count = t.shares.len();
-            let mut mobility = 0.0;
+            (s.mobility, s.held) = (0.0, 0.0);
             for (node, c) in &t.shares[s.own.clone()] {
                 let node = *node as usize;
                 t.places[node] = u32::MAX;
-                mobility += if held[node] { HELD * c * c / mass[node] } else { c * c / mass[node] };
-                if !held[node] {
+                if held[node] {
+                    s.mobility += HELD * c * c / mass[node];
+                    s.held += HELD * c * c / mass[node];
+                    continue;
+                }
+                s.mobility += c * c / mass[node];
+                if solver.is_none() {
                     next[node] = plus(next[node], scaled(s.impulse, c / mass[node]));
                 }
             }
-            s.mobility = mobility;
         }
+        self.respond();
     }
 
     /// Velocity that the nodes give a touched node, m/s.
@@ -193,12 +201,14 @@ impl LagrangianBody {
         let s = &self.touching.shared[slot];
         let open = &mut field.bands[s.band].open[s.index];
         open.mass = 1.0 / s.mobility;
-        open.free = minus(self.velocity_of(s, &self.next), scaled(s.impulse, s.mobility));
+        let v = self.velocity_of(s, &self.next);
+        let v = if self.solver.is_some() { plus(v, self.answer(s.rank)) } else { v };
+        open.free = minus(v, scaled(s.impulse, s.mobility));
     }
 
     /// Takes over the impulse that contact has found at a shared node, N s.
     pub fn take(&mut self, slot: usize, impulse: [f64; 2]) {
-        let Self { touching: t, next, mass, held, .. } = self;
+        let Self { touching: t, next, mass, held, solver, .. } = self;
         let s = &mut t.shared[slot];
         let change = minus(impulse, s.impulse);
         for (new, d) in impulse.iter().zip(change) {
@@ -206,6 +216,9 @@ impl LagrangianBody {
             t.change[1] = t.change[1].max(new.abs() * s.mobility);
         }
         s.impulse = impulse;
+        if solver.is_some() {
+            return;
+        }
         for (node, c) in t.shares[s.own.clone()].iter().filter(|(node, _)| !held[*node as usize]) {
             let v = &mut next[*node as usize];
             *v = plus(*v, scaled(change, c / mass[*node as usize]));
@@ -215,13 +228,14 @@ impl LagrangianBody {
     /// Ends a sweep: whether it changed next to nothing.
     pub fn settle(&mut self) -> bool {
         let [change, largest] = std::mem::take(&mut self.touching.change);
-        change <= SETTLED * largest
+        change <= SETTLED * largest && self.agree(SETTLED * largest)
     }
 
-    /// Adds what contact gave the nodes that clamps hold to `sums` (N s).
-    pub(super) fn add_contact(&self, sums: &mut [[f64; 2]]) {
+    /// Adds what contact gave the nodes that clamps hold, or all others, to `sums` (N s).
+    pub(super) fn add_contact(&self, held: bool, sums: &mut [[f64; 2]]) {
         for s in self.touching.shared.iter().filter(|s| s.touched && dot(s.impulse, s.impulse) > 0.0) {
-            for (node, c) in self.touching.shares[s.own.clone()].iter().filter(|(n, _)| self.held[*n as usize]) {
+            for (node, c) in self.touching.shares[s.own.clone()].iter().filter(|(n, _)| self.held[*n as usize] == held)
+            {
                 sums[*node as usize] = plus(sums[*node as usize], scaled(s.impulse, *c));
             }
         }

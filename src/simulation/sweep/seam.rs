@@ -115,7 +115,9 @@ impl<'f> Seam<'f> {
 
     /// A band that belongs here.
     pub fn band(&mut self, band: usize) -> &mut Band {
-        let place = self.places[band - self.first].as_mut().expect("a band of this seam");
+        let place = self.places[band - self.first]
+            .as_mut()
+            .expect("the sweep asks a seam only for the bands that it has put there");
         place.band.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -33,7 +33,7 @@ impl<'a> Stretch<'a> {
             }
             band -= bands.len();
         }
-        panic!("a band beyond the last");
+        unreachable!("a part asks only for its own bands, of which none is left");
     }
 
     /// All of them, each with the number of its field.
@@ -55,7 +55,7 @@ impl<'a> Stretch<'a> {
         for k in 0..whole.len() {
             if band <= whole[k].len() {
                 let (before, rest) = whole.split_at_mut(k);
-                let [divided, after @ ..] = rest else { unreachable!("field {k} is among them") };
+                let [divided, after @ ..] = rest else { unreachable!("behind {k} of more fields there is another") };
                 let (left, right) = divided.split_at_mut(band);
                 let left = Stretch { end, whole: before, beginning: left, first };
                 return (left, Stretch { end: right, whole: after, beginning, first: first + k + 1 });

@@ -1,6 +1,6 @@
-//! Four of the barriers looked into, under the literal and the calibrated release: pressure through time, the wave that runs up the
-//! flow, how the barrier moves and bends, stress and shear in the sand, what rests on the wall at the end, where the energy is (Figs. 5
-//! and 7 to 14 of the paper), and where it is dissipated relative to the slip surface ([`slip`]).
+//! Four of the barriers looked into, under the literal and the calibrated release (Figs. 5 and 7 to 14 of the paper). It shows pressure
+//! through time, the wave that runs up the flow, and how the barrier moves and bends. It shows stress and shear in the sand, what rests on
+//! the wall at the end, and where the energy is. Where energy is dissipated relative to the slip surface is in [`slip`].
 //!
 //! When to look follows from the arrival of the flow, as it is on record in the study of rigidities, so that it is the same for both
 //! releases. The runs take some minutes; what the figures need of them is on record in `tables`, a folder a release.

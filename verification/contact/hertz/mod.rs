@@ -8,9 +8,9 @@
 //! The flat body rises to where the closed form has its half width within half a period of the slowest wave up and down the body,
 //! and stands for one and a half more under critical damping. What is measured is a mean over the last tenth of a period.
 //!
-//! Forces are read at nodes. Shape functions spread each over the nodes beside it, which takes sinc^2(kh/2), the transform of a hat,
-//! off the mean of cos(kx); the half width is from the second moment without that: sin^2(pi a/wavelength) is four times the mean
-//! of sin^2(pi x/wavelength). Forces of single nodes alternate; means (1, 2, 1)/4 do not.
+//! Forces are read at nodes. Shape functions spread each over the nodes beside it, which takes sinc^2(kh/2), the transform of a hat, off
+//! the mean of cos(kx). The half width is from the second moment without that: sin^2(pi a/wavelength) is four times the mean of sin^2(pi
+//! x/wavelength). Forces of single nodes alternate; means (1, 2, 1)/4 do not.
 //!
 //! Tolerances are from the grid. Nodes on both sides of the surface are held together, so up to a cell of the body does not strain:
 //! the flat body comes less far, by up to a cell times the strain in the middle. That falls with the cell size. Where the contact

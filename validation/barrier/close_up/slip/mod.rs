@@ -1,21 +1,19 @@
 //! Where plastic work is done relative to the slip surface, beside friction: what the paper's "85 % in pile-up" can
 //! mean.
 //!
-//! **Plastic work** of a material point over a step is what the stresses do on the plastic strain, with the midpoint
-//! rule of the ledger: V (s0 + s1)/2 : de_p + V (m0 + m1)/2 do. The plastic strain has the direction of the deviator s1
-//! to which the law returns, and its size follows from the change of the equivalent plastic shear strain that the point
-//! carries; o is the volumetric strain by which it has come apart, m the mean stress. That is exact for a cone without
-//! dilatancy, as the sand has here ([`work`]). The sum over all points has to be the plastic work of the ledger, which
-//! knows total work and stored energy only: a check on the record.
+//! **Plastic work** of a material point over a step is what the stresses do on the plastic strain, with the midpoint rule of the ledger: V
+//! (s0 + s1)/2 : de_p + V (m0 + m1)/2 do. The plastic strain has the direction of the deviator s1 to which the law returns. Its size
+//! follows from the change of the equivalent plastic shear strain that the point carries. m is the mean stress, and o the volumetric strain
+//! by which the point has come apart. That is exact for a cone without dilatancy, as the sand has here ([`work`]). The sum over all points
+//! has to be the plastic work of the ledger, which knows total work and stored energy only: a check on the record.
 //!
-//! **The slip surface** is the boundary between the deposit and everything else. Over every [`INTERVAL`], a grid cell
-//! rests if the mean displacement of its sand is less than a share of what the front does in that time, in the frame of
-//! the flume: sand that goes with a barrier that swings is not at rest. The deposit is the resting cells that hang
-//! together, over edges or corners, with some that lie within [`TOUCH`] cells of the barrier ([`regions`]). A cell is
-//! at the slip surface if a cell with sand of the other side lies within a number of cells of it, centre to centre.
-//! Work goes to where its point is at the end of the interval: the deposit away from the slip surface, the slip surface
-//! on the deposit's and on the flow's side, and the flow away from it, which is all other sand. As long as nothing
-//! rests, all is flow.
+//! **The slip surface** is the boundary between the deposit and everything else. Over every [`INTERVAL`], a grid cell rests if the mean
+//! displacement of its sand is less than a share of what the front does in that time. That is in the frame of the flume: sand that goes
+//! with a barrier that swings is not at rest. The deposit is the resting cells that hang together, over edges or corners, with some that
+//! lie within [`TOUCH`] cells of the barrier ([`regions`]). A cell is at the slip surface if a cell with sand of the other side lies within
+//! a number of cells of it, centre to centre. Work goes to where its point is at the end of the interval. That is the deposit away from the
+//! slip surface, the slip surface on the deposit's or on the flow's side, or the flow away from it, which is all other sand. As long as
+//! nothing rests, all is flow.
 //!
 //! Both thresholds are choices. What halving and doubling them changes is in the table of thresholds.
 

@@ -1,5 +1,7 @@
 //! A body that moves by its mesh: alone, in a clamp, and in contact.
 
+mod implicit;
+
 use crate::boundary::{Boundary, Friction};
 use crate::constitutive::{AnyLaw, LinearElastic, NeoHookean};
 use crate::contact::rule::{ContactRule, GapRule, NormalRule};
@@ -133,6 +135,22 @@ fn a_clamp_carries_weight_and_moment_and_all_motion_dies_out() {
     for (x, u) in b.start.iter().zip(&b.displacement) {
         assert_eq!(*u == [0.0; 2], x[1] < 1e-9, "{x:?} {u:?}");
     }
+}
+
+/// A drawing is typed to some digits: a clamp that misses the edge by them holds it.
+#[test]
+fn a_clamp_a_hair_beside_the_edge_holds_it() {
+    let brick = Brick::new([0.0; 2], [4, 8], H);
+    let held = |y: f64| {
+        let clamp = plane("clamp", [0.0, y], Friction::Bonded);
+        let mut scene = meshed(&brick, rubber(), 1000.0, vec![clamp]);
+        scene.gravity = [0.5, -9.81];
+        let sim = Simulation::new(scene);
+        body(&sim).held.iter().filter(|h| **h).count()
+    };
+    assert!(held(0.0) > 0);
+    assert_eq!(held(-1e-6), held(0.0));
+    assert_eq!(held(-1e-3), 0);
 }
 
 #[test]
