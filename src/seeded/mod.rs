@@ -144,5 +144,6 @@ pub fn exchanged<T>(seed: Seed, pair: [T; 2]) -> [T; 2] {
     if is(seed) { [b, a] } else { [a, b] }
 }
 
-#[cfg(test)]
+// Tests without debug assertions (`cargo test --release`) have no switch, and nothing to ask.
+#[cfg(all(test, debug_assertions))]
 mod tests;
