@@ -150,7 +150,6 @@ pub const STUDIES: &[(&str, RecordedRows)] = &[
     ("barrier/runs/grids.csv", || barrier::records::GRIDS.record.rows()),
     ("barrier/runs/fine.csv", || barrier::records::FINE.record.rows()),
     ("barrier/runs/rigid.csv", || barrier::records::RIGID.record.rows()),
-    ("barrier/runs/wall_at_nodes.csv", || barrier::records::WALL_AT_NODES.record.rows()),
     ("barrier/runs/integration.csv", || barrier::records::INTEGRATION.record.rows()),
     ("barrier/runs/short_steps.csv", || barrier::records::SHORT_STEPS.record.rows()),
     ("barrier/runs/kinematics.csv", || barrier::records::KINEMATICS.record.rows()),

@@ -7,7 +7,7 @@ use checkdam_validation::experiment::Experiment;
 use checkdam_validation::record::{RecordedRun, processors, spread_out};
 use checkdam_validation::{Context, Failure, STUDIES, VALIDATIONS, Validation, write};
 use checkdam_verification::report::{self, Caught, faults_csv};
-use checkdam_verification::{Fault, Outcome};
+use checkdam_verification::{Fault, FaultKind, Outcome};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -114,16 +114,40 @@ fn experiments() {
     }
 }
 
+/// Does something with each of a list, with a thread each and as many side by side as there are processors: that uses them better than many
+/// threads on one. Results in the order of the list.
+fn side_by_side<T: Sync, R: Send>(list: &[T], each: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let done = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..processors().get() {
+            scope.spawn(|| {
+                let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+                loop {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = list.get(k) else { return };
+                    let result = alone.install(|| each(item));
+                    done.lock().expect("none has panicked").push((k, result));
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().expect("none has panicked");
+    done.sort_by_key(|d| d.0);
+    done.into_iter().map(|d| d.1).collect()
+}
+
 /// A force that is 3 % wrong, and other faults of a few percent, fail.
 #[test]
 fn every_fault_is_caught() {
-    let mut rows = Vec::new();
-    for validation in VALIDATIONS {
-        for (kind, factor) in validation.covers.iter().flat_map(|&(kind, f)| [(kind, f), (kind, 2.0 - f)]) {
-            let run = || run(validation, Fault::of(kind, factor), false, &folder("validation_faults"));
-            rows.push(Caught::from(validation.name, kind, factor, run().map_err(|e| e.to_string())));
-        }
-    }
+    let both = |&(kind, factor): &(FaultKind, f64)| [(kind, factor), (kind, 2.0 - factor)];
+    let all: Vec<(&Validation, FaultKind, f64)> =
+        VALIDATIONS.iter().flat_map(|v| v.covers.iter().flat_map(both).map(move |(kind, f)| (v, kind, f))).collect();
+    let rows = side_by_side(&all, |&(validation, kind, factor)| {
+        let folder = folder(&format!("validation_faults/{}_{}_{factor}", validation.name, kind.name()));
+        let outcome = run(validation, Fault::of(kind, factor), false, &folder).map_err(|e| e.to_string());
+        Caught::from(validation.name, kind, factor, outcome)
+    });
     let missed: Vec<&Caught> = rows.iter().filter(|c| c.failing == 0).collect();
     assert!(missed.is_empty(), "{missed:#?}");
     compare("faults.csv", faults_csv(&rows).as_bytes());
@@ -147,22 +171,8 @@ fn a_sample_of_the_record_is_what_the_studies_give() {
     }
     // The dearest first: none of them is left for one processor at the end.
     chosen.sort_by(|a, b| b.1.cost.total_cmp(&a.1.cost));
-    let (next, lines) = (AtomicUsize::new(0), Mutex::new(vec![String::new(); chosen.len()]));
-    std::thread::scope(|scope| {
-        for _ in 0..processors().get() {
-            scope.spawn(|| {
-                // A thread a run: many side by side use the processors better than many threads on one.
-                let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
-                loop {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    let Some((name, run)) = chosen.get(k) else { return };
-                    let line = alone.install(|| (run.anew)()).unwrap_or_else(|e| panic!("{name}, {}: {e}", run.what));
-                    lines.lock().expect("no run has panicked")[k] = line;
-                }
-            });
-        }
-    });
-    let lines = lines.into_inner().expect("no run has panicked");
+    let lines =
+        side_by_side(&chosen, |(name, run)| (run.anew)().unwrap_or_else(|e| panic!("{name}, {}: {e}", run.what)));
     for ((name, run), line) in chosen.iter().zip(&lines) {
         if *line != run.recorded {
             wrong.push(format!("{name}, {}:\n  recorded {}\n  anew     {line}", run.what, run.recorded));

@@ -2,6 +2,7 @@
 
 use crate::body::Block;
 use crate::boundary::Boundary;
+use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
 /// A point beside a face.
@@ -28,6 +29,11 @@ impl Beside<'_> {
     pub fn volume_ratio(&self) -> f64 {
         self.block.volume_ratio[self.lane]
     }
+}
+
+/// Whether a boundary acts on a body, by its index: what it does not act on is not beside it.
+pub(super) fn acts_on(face: &Boundary, body: usize) -> bool {
+    face.acts_on(&[body]) || seeded::is(Seed::GaugeBodies)
 }
 
 /// The points of the `chosen` bodies, by index, that lie behind the infinitely extended face, or in front of it by `reach` (m) at

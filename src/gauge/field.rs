@@ -23,12 +23,16 @@ pub struct FieldCell {
     pub plastic_shear: f64,
 }
 
-/// Means in the grid cells that hold material, column by column.
+/// Means in the cells of the grid that hold material, column by column.
 pub fn velocity_field(simulation: &Simulation, barriers: &[usize]) -> Vec<FieldCell> {
     let h = simulation.spacing();
+    let origin = if seeded::is(Seed::GaugeFieldOrigin) { [0.0; 2] } else { simulation.origin() };
     let mut points: Vec<((i64, i64), &Block, usize, &Body)> = Vec::new();
     flowing_blocks(simulation, barriers).for_each(|(b, block, n)| {
-        let cell = |l: usize| ((block.x[0][l] / h).floor() as i64, (block.x[1][l] / h).floor() as i64);
+        let cell = |l: usize| {
+            let [i, j] = [0, 1].map(|d| ((block.x[d][l] - origin[d]) / h).floor() as i64);
+            (i, j)
+        };
         points.extend((0..n).map(|l| (cell(l), block, l, &simulation.bodies()[b])));
     });
     points.sort_by_key(|p| p.0);
@@ -46,8 +50,9 @@ pub fn velocity_field(simulation: &Simulation, barriers: &[usize]) -> Vec<FieldC
                 shear += m * block.plastic_shear[l];
             }
             let (i, j) = cell[0].0;
+            let middle = if seeded::is(Seed::GaugeField) { 0.0 } else { 0.5 };
             FieldCell {
-                x: [(i as f64 + if seeded::is(Seed::GaugeField) { 0.0 } else { 0.5 }) * h, (j as f64 + 0.5) * h],
+                x: [origin[0] + (i as f64 + middle) * h, origin[1] + (j as f64 + 0.5) * h],
                 fill: volume / (h * h * simulation.thickness()),
                 v: [momentum[0] / mass, momentum[1] / mass],
                 pressure: seeded::times(Seed::GaugeFieldPressure, pressure / mass),

@@ -1,4 +1,4 @@
-use super::super::two_bodies::{BODIES, close, point, simulation};
+use super::super::two_bodies::{BODIES, close, point, scene_of, simulation};
 use super::*;
 use crate::scaffold::THICKNESS;
 
@@ -29,4 +29,19 @@ fn field_gives_the_mean_velocity_and_fill_of_each_cell() {
         "{:?}",
         field[2]
     );
+}
+
+#[test]
+fn cells_of_a_field_are_those_of_the_grid() {
+    let still = |x: f64, y: f64| point(x, y, [0.0; 2], 1.0);
+    let light = vec![still(0.6, 0.6), still(-0.1, 0.7), still(0.7, -0.2)];
+    let mut scene = scene_of(0.25, [light, vec![still(0.7, 0.7)]], vec![]);
+    scene.lattice.origin = [0.1, -0.06];
+    let field = velocity_field(&Simulation::new(scene), &[]);
+    // Cells (-1, 3), (2, -1), (2, 2), (2, 3), counted from the origin of the grid.
+    let middles = [[-0.025, 0.815], [0.725, -0.185], [0.725, 0.565], [0.725, 0.815]];
+    assert_eq!(field.len(), middles.len());
+    for (cell, middle) in field.iter().zip(middles) {
+        assert!((0..2).all(|d| close(cell.x[d], middle[d])), "{cell:?} {middle:?}");
+    }
 }

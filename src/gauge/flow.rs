@@ -79,21 +79,26 @@ pub struct Motion {
 /// How the bodies move that are `chosen` by index: what [`Simulation::stock_of`] says of it, without the energies that are stored.
 pub fn motion(simulation: &Simulation, chosen: impl Fn(usize) -> bool) -> Motion {
     let mut sum = Motion::default();
+    // Lane by lane over all blocks, and at the end over the lanes.
+    let mut lanes: [Lane; 3] = [[0.0; LANES]; 3];
     simulation.blocks().filter(|(body, ..)| chosen(*body)).for_each(|(body, block, n)| {
         let (m, [vx, vy]) = (simulation.bodies()[body].point_mass, &block.v);
-        // All lanes at once, and then added up in order.
-        let momentum: [Lane; 2] = [vx, vy].map(|v| v.map(|v| m * v));
-        let kinetic: Lane = std::array::from_fn(|l| 0.5 * m * (vx[l] * vx[l] + vy[l] * vy[l]));
         let mut add = |n: usize| {
             for l in 0..n {
-                sum.mass += m;
-                sum.momentum[0] += momentum[0][l];
-                sum.momentum[1] += momentum[1][l];
-                sum.kinetic += kinetic[l];
+                lanes[0][l] += m * vx[l];
+                lanes[1][l] += m * vy[l];
+                lanes[2][l] += 0.5 * m * (vx[l] * vx[l] + vy[l] * vy[l]);
             }
         };
-        if n == LANES { add(LANES) } else { add(n) }
+        if n == LANES {
+            add(LANES)
+        } else {
+            add(n)
+        }
+        sum.mass += m * n as f64;
     });
+    let [x, y, kinetic] = lanes.map(|lane| lane.iter().sum());
+    (sum.momentum, sum.kinetic) = ([x, y], kinetic);
     sum.kinetic = seeded::times(Seed::GaugeKinetic, sum.kinetic);
     sum
 }

@@ -99,7 +99,7 @@ fn front_of_all(simulation: &Simulation) -> Front {
 }
 
 #[test]
-fn a_head_in_order_gives_the_bits_of_all_points_in_order() {
+fn a_head_gives_what_all_points_in_order_give() {
     let mut state = 3u64;
     let mut uniform = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -119,17 +119,17 @@ fn a_head_in_order_gives_the_bits_of_all_points_in_order() {
             let both = [points(counts[0]), points(counts[1])];
             let sim = simulation(0.02, both.clone(), vec![]);
             let front = gauge.sample(&sim, &[]);
-            assert_eq!(front, front_of_all(&sim), "{k}, {ties}");
-            // The same flow to the left, to the last bit where the order of the sums is known.
+            let of_all = front_of_all(&sim);
+            assert_eq!((front.x, front.edge), (of_all.x, of_all.edge), "{k}, {ties}");
+            assert!(close(front.velocity, of_all.velocity) && close(front.depth, of_all.depth), "{k}, {ties}");
+            // The same flow to the left; sums come in another order.
             let mirrored = |points: &[Particle]| -> Vec<Particle> {
                 points.iter().map(|p| Particle { x: [-p.x[0], p.x[1]], v: [-p.v[0], p.v[1]], ..*p }).collect()
             };
             let sim = simulation(0.02, both.each_ref().map(|p| mirrored(p)), vec![]);
             let left = leftward.sample(&sim, &[]);
-            let velocity = if ties && close(left.velocity, front.velocity) { front.velocity } else { left.velocity };
-            let depth = if ties && close(left.depth, front.depth) { front.depth } else { left.depth };
-            let expected = Front { x: -front.x, edge: -front.edge, ..front };
-            assert_eq!(Front { velocity, depth, ..left }, expected, "{k}, {ties}");
+            assert_eq!((left.x, left.edge), (-front.x, -front.edge), "{k}, {ties}");
+            assert!(close(left.velocity, front.velocity) && close(left.depth, front.depth), "{k}, {ties}");
         }
     }
 }

@@ -5,21 +5,21 @@
 //! of the nearest one, divided by the thickness of k spacings. The nearest point is sought anew in each bin of one cell's
 //! height, so that material which has not arrived does not count.
 
-use super::beside::beside;
+use super::beside::{acts_on, beside};
 use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
 /// Layers that are averaged.
 pub const LAYERS: [usize; 3] = [1, 2, 3];
 
-/// Normal force (N, positive in compression) on a wall from the nearest 1, 2 and 3 layers of points.
+/// Normal force (N, positive in compression) on a wall from the nearest 1, 2 and 3 layers of points of the bodies on which it acts.
 pub fn normal_force(simulation: &Simulation, boundary: usize) -> [f64; 3] {
     let b = &simulation.boundaries()[boundary];
     let h = simulation.spacing();
     let (nx, ny) = (b.normal.x, b.normal.y);
     let reach = LAYERS[2] as f64 * h;
     let mut near: Vec<Near> = Vec::new();
-    beside(simulation, b, reach, |_| true).for_each(|point| {
+    beside(simulation, b, reach, |body| acts_on(b, body)).for_each(|point| {
         let (d, s) = b.face_coordinates(point.x());
         if d < -h || s < 0.0 || s > b.height() {
             return;

@@ -11,9 +11,20 @@ const RATIO: f64 = 1.25;
 /// A wall 4 cells high that leans by `angle`, material on its right, and a simulation of what `points` makes of a brick of
 /// `cells` cells in front of it: it is given distance from the wall, height above its foot, and the point.
 fn force(angle: f64, cells: [usize; 2], per_cell: usize, points: impl Fn(f64, f64, &mut Particle) -> bool) -> [f64; 3] {
+    force_on(angle, cells, per_cell, points, &[])
+}
+
+/// The same of a wall that acts on these bodies alone, or on all if there are none.
+fn force_on(
+    angle: f64,
+    cells: [usize; 2],
+    per_cell: usize,
+    points: impl Fn(f64, f64, &mut Particle) -> bool,
+    bodies: &[usize],
+) -> [f64; 3] {
     let foot = Vector2::new(0.3, 0.1);
     let tangent = Vector2::new(-angle.sin(), angle.cos());
-    let wall = Boundary::wall("wall", foot, tangent, 4.0 * H, H, Friction::Smooth).facing_right();
+    let wall = Boundary::wall("wall", foot, tangent, 4.0 * H, H, Friction::Smooth).facing_right().only_for(bodies);
     let brick = Brick { angle, per_cell, ..Brick::new(foot.into(), cells, H) };
     let mut inside = brick.points();
     inside.retain_mut(|p| {
@@ -118,4 +129,17 @@ fn the_nearest_point_is_sought_in_each_bin() {
 #[test]
 fn no_material_no_force() {
     assert_eq!(force(0.0, [2, 2], 2, |_, _, _| false), [0.0; 3]);
+}
+
+#[test]
+fn what_the_wall_does_not_act_on_does_not_press_it() {
+    let under = |bodies: &[usize]| {
+        let pressed = |_: f64, _: f64, p: &mut Particle| {
+            p.state = pressure(1e3);
+            true
+        };
+        force_on(0.3, [6, 4], 2, pressed, bodies)
+    };
+    assert!(close(under(&[1, 0]), [1e3 * AREA * RATIO; 3]));
+    assert_eq!(under(&[1]), [0.0; 3]);
 }

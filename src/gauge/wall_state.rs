@@ -1,6 +1,6 @@
 //! Material at a wall: how high it has run up, how much of it is behind.
 
-use super::beside::beside;
+use super::beside::{acts_on, beside};
 use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
 
@@ -15,7 +15,7 @@ pub struct WallState {
     pub behind: f64,
 }
 
-/// What is at a wall now. Bodies that are `structures`, by index, are left out.
+/// What is at a wall now. Bodies that are `structures`, by index, are left out; those on which it does not act make no run-up.
 pub fn wall_state(simulation: &Simulation, boundary: usize, structures: &[usize]) -> WallState {
     let b = &simulation.boundaries()[boundary];
     let h = simulation.spacing();
@@ -25,7 +25,7 @@ pub fn wall_state(simulation: &Simulation, boundary: usize, structures: &[usize]
         let (d, s) = b.face_coordinates(near.x());
         if d < -h {
             state.behind += simulation.bodies()[near.body].point_mass;
-        } else {
+        } else if acts_on(b, near.body) {
             let wrong = seeded::is(Seed::GaugeRunUp);
             state.run_up = state.run_up.max(if wrong { s + b.foot().dot(&b.tangent) } else { s });
             heights.push(s);

@@ -19,12 +19,14 @@ fn run_up_counts_at_the_face_and_not_behind_it() {
         point(1.375, 0.8, [0.0; 2], 1.0),
     ];
     let heavy = vec![point(3.0, 0.95, [0.0; 2], 1.0)];
-    let sim = simulation(0.25, [light, heavy], vec![wall(1.0)]);
+    let sim = simulation(0.25, [light, heavy], vec![wall(1.0), wall(1.0).only_for(&[1])]);
     let state = wall_state(&sim, 0, &[]);
     // One cell behind the face is not yet behind the wall; 1.5 cells before it still is at the wall.
     assert_eq!(state, WallState { run_up: 0.7, run_up_p95: 0.0, behind: 3.0 });
     // A barrier that stands behind has not gone over this one.
     assert_eq!(wall_state(&sim, 0, &[1]), WallState { behind: 1.0, ..state });
+    // What a wall does not hold makes no run-up at it.
+    assert_eq!(wall_state(&sim, 1, &[]), WallState { run_up: 0.0, ..state });
 }
 
 #[test]

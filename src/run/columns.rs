@@ -286,7 +286,7 @@ pub(super) static STRUCTURE: TableKind<(f64, StructureSample)> = TableKind {
             "gap_cells", "cells", "widest gap between neighbouring points beyond what stretch explains; from 0.25 on the barrier is torn", |r, _| r.1.bend.gap;
             "gap_height_m", "m", "its height above the foot at the start", |r, _| r.1.bend.gap_at;
             "run_up_m", "m", "highest material within 1.5 cells of the face, above the foot", |r, _| r.1.survey.run_up;
-            "behind_kg", "kg", "mass behind the barrier, there or already out of the domain", |r, _| r.1.survey.behind;
+            "behind_kg", "kg", "mass behind the barrier, there or where it left the domain since the release", |r, _| r.1.survey.behind;
         ],
     )],
 };

@@ -120,6 +120,9 @@ faults! {
     GaugeWindow, "gauge.window", Wrong, "mean speed in a window divides by one point too few";
     GaugeStation, "gauge.station", Times(1.03), "width of a station";
     GaugeField, "gauge.field", Wrong, "a field moved by half a cell";
+    GaugeBodies, "gauge.bodies", Dropped, "that a wall acts on some bodies alone, in what is read beside it";
+    GaugeDeparted, "gauge.departed", Wrong, "what leaves the domain before a barrier that is a body has passed it";
+    GaugeFieldOrigin, "gauge.field_origin", Wrong, "cells of a field counted from the origin of the axes, not from that of the grid";
     GaugeFieldPressure, "gauge.field_pressure", Times(1.03), "pressure of a field";
     GaugeFront, "gauge.front", Times(1.5), "share of the mass ahead of the front";
     GaugeFrontVelocity, "gauge.front_velocity", Times(1.03), "velocity of the front";

@@ -58,6 +58,16 @@ impl Simulation {
         self.lattice.spacing
     }
 
+    /// A corner of cells, from which all others lie whole cells away, m.
+    pub fn origin(&self) -> [f64; 2] {
+        self.lattice.origin
+    }
+
+    /// The points that left the domain in the last step: index of the body, and where they were (m).
+    pub fn departures(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
+        self.fields.iter().flat_map(|f| &f.departed).map(|d| (d.body, d.particle.x))
+    }
+
     /// Material outside [x_min, x_max], [y_min, y_max] is removed, m.
     pub fn domain(&self) -> [[f64; 2]; 2] {
         self.domain

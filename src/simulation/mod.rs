@@ -154,6 +154,7 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), StepFailure> {
         self.extents.take();
         for k in 0..self.fields.len() {
+            self.fields[k].departed.clear();
             if self.fields[k].drift > self.lattice.spacing {
                 self.sort(k);
             }

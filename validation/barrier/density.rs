@@ -5,7 +5,7 @@
 //! Z_b/(Z_b + Z_s) of that on a rigid wall and velocity Z_s/(Z_b + Z_s) of the flow's (Saint-Venant 1867). Were rigidity all, density
 //! would not matter.
 
-use super::records::{DENSITY, GRIDS, WALL_AT_NODES, height, impedance, peaks, young_of_one};
+use super::records::{DENSITY, SCATTER, height, impedance, on_rigid_wall, peaks, young_of_one};
 use crate::{Context, Failure, Validation};
 use checkdam::check::{Check, Expected, Kind};
 use checkdam::plot::PlotError;
@@ -39,7 +39,7 @@ pub struct Range {
 /// # Errors
 /// A record is not as it should be, or a study is stopped.
 pub fn analyse(context: &mut Context) -> Result<(String, Vec<Range>), Failure> {
-    let rigid = peaks(&WALL_AT_NODES.rows(context)?).mean;
+    let rigid = on_rigid_wall(context)?[0].mean;
     let case = DENSITY.first_case()?;
     let (sand, barrier) = (&case.materials["sand"], &case.materials["barrier"]);
     let of_sand = impedance(sand.young_pa, sand.poisson, sand.density_kg_per_m3);
@@ -80,7 +80,7 @@ fn run(context: &mut Context) -> Result<Outcome, Failure> {
     let (text, ranges) = analyse(context)?;
     let mut outcome = Outcome::default();
     outcome.tables.push(("barrier_density_shares".into(), text));
-    let repeated = GRIDS.rows(context)?;
+    let repeated = SCATTER.rows(context)?;
     for r in &ranges {
         let [light, heavy] = r.ends;
         let peaks = peaks(repeated.iter().filter(|s| s.set["stiffness_1"] == r.stiffness));

@@ -43,8 +43,6 @@ pub const GRIDS: BarrierStudy = study!("barrier_grids", "grids", &["cell_m", "st
 pub const FINE: BarrierStudy = study!("barrier_fine", "fine", &["stiffness_1"]);
 /// A rigid wall on two grids, moved and repacked.
 pub const RIGID: BarrierStudy = study!("barrier_rigid_wall", "rigid", &["cell_m"]);
-/// A rigid wall that acts at nodes, for barriers that are on record with that.
-pub const WALL_AT_NODES: BarrierStudy = study!("barrier_wall_at_nodes", "wall_at_nodes", &["cell_m"]);
 /// Explicit and implicit steps, long ones and short ones.
 pub const INTEGRATION: BarrierStudy =
     study!("barrier_integration", "integration", &["stiffness_1", "integration", "longest_step_s"]);
@@ -69,20 +67,8 @@ pub const CALIBRATED: &str = "60deg_calibrated";
 pub const STUDY_CELL: &str = "0.01";
 
 /// All of them.
-pub const ALL: [BarrierStudy; 12] = [
-    RIGIDITY,
-    SCATTER,
-    SCATTER_CALIBRATED,
-    GRIDS,
-    FINE,
-    RIGID,
-    WALL_AT_NODES,
-    INTEGRATION,
-    SHORT_STEPS,
-    DENSITY,
-    WEIGHT,
-    KINEMATICS,
-];
+pub const ALL: [BarrierStudy; 11] =
+    [RIGIDITY, SCATTER, SCATTER_CALIBRATED, GRIDS, FINE, RIGID, INTEGRATION, SHORT_STEPS, DENSITY, WEIGHT, KINEMATICS];
 
 /// The cases: name and text.
 pub const CASES: [(&str, &str); 4] = [

@@ -199,7 +199,9 @@ fn fields(set: &Setting, files: &Files, time: f64, points: &[Point], judge: &mut
         return;
     }
     let mut cells: BTreeMap<[i64; 2], Vec<&Point>> = BTreeMap::new();
-    points.iter().for_each(|p| cells.entry(p.x.map(|x| (x / set.h).floor() as i64)).or_default().push(p));
+    let origin = [0, 1].map(|d| at(&set.case, &format!("grid.origin_m.{d}")).unwrap_or(0.0));
+    let cell = |p: &Point| [0, 1].map(|d| ((p.x[d] - origin[d]) / set.h).floor() as i64);
+    points.iter().for_each(|p| cells.entry(cell(p)).or_default().push(p));
     let mean = |cell: &[&Point], of: &dyn Fn(&Point) -> f64| {
         cell.iter().map(|p| p.mass * of(p)).sum::<f64>() / cell.iter().map(|p| p.mass).sum::<f64>()
     };
@@ -212,8 +214,8 @@ fn fields(set: &Setting, files: &Files, time: f64, points: &[Point], judge: &mut
         let found: Vec<f64> = rows.iter().map(|k| pick(&values, *k)).collect();
         judge.same(&format!("field.csv: {name} against the points"), &found, &made, within(1e-7, SAME, DEFINED));
     };
-    same("x_m", cells.keys().map(|k| (k[0] as f64 + 0.5) * set.h).collect());
-    same("y_m", cells.keys().map(|k| (k[1] as f64 + 0.5) * set.h).collect());
+    same("x_m", cells.keys().map(|k| origin[0] + (k[0] as f64 + 0.5) * set.h).collect());
+    same("y_m", cells.keys().map(|k| origin[1] + (k[1] as f64 + 0.5) * set.h).collect());
     same("solid_fraction", cells.values().map(|c| fill(c)).collect());
     same("velocity_x_m_per_s", cells.values().map(|c| mean(c, &|p| p.v[0])).collect());
     same("velocity_y_m_per_s", cells.values().map(|c| mean(c, &|p| p.v[1])).collect());

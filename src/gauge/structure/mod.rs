@@ -11,6 +11,7 @@ pub use shape::{Bend, ProfilePoint};
 pub use survey::Survey;
 
 use super::barrier::contact_impulse;
+use super::flow::may_flow;
 use super::passage::Passage;
 use super::reaction::ReactionGauge;
 use crate::boundary::Boundary;
@@ -83,6 +84,8 @@ pub struct StructureGauge {
     structures: Vec<usize>,
     /// Mass behind it when the gauge was opened, kg.
     behind: f64,
+    /// Mass that has left the domain behind it since, kg.
+    departed: f64,
     /// -1 where overturning is clockwise.
     turn: f64,
 }
@@ -111,6 +114,7 @@ impl StructureGauge {
             momentum: [0.0; 2],
             structures: Vec::new(),
             behind: 0.0,
+            departed: 0.0,
             turn,
         };
         gauge.open(simulation);
@@ -130,7 +134,7 @@ impl StructureGauge {
 
     /// Mass behind it now, in the domain, kg.
     pub fn behind(&self, simulation: &Simulation) -> f64 {
-        self.survey(simulation).behind - simulation.ledger().departed_mass
+        self.survey(simulation).behind - self.departed
     }
 
     /// Where its face stood at the start.
@@ -143,6 +147,7 @@ impl StructureGauge {
         (self.contact, self.clamp, self.other) = (ReactionGauge::new(), ReactionGauge::new(), [0.0; 2]);
         self.follow(simulation);
         self.momentum = self.momentum_now(simulation);
+        self.departed = 0.0;
         self.behind = self.survey(simulation).behind;
     }
 
@@ -166,8 +171,20 @@ impl StructureGauge {
             moment += -tally.moment + arm.x * p[1] - arm.y * p[0];
         }
         self.clamp.add(impulse, moment, dt, time);
+        for (body, x) in simulation.departures() {
+            // What leaves the domain elsewhere has not passed the barrier.
+            let behind = self.face.face_coordinates(x).0 < 0.0 || seeded::is(Seed::GaugeDeparted);
+            if behind && self.may_pass(simulation, body) {
+                self.departed += simulation.bodies()[body].point_mass;
+            }
+        }
         let other = simulation.distributed_impulse_of(self.body);
         self.other = [self.other[0] + other[0], self.other[1] + other[1]];
+    }
+
+    /// Whether a body, by its index, flows and may pass it.
+    fn may_pass(&self, simulation: &Simulation, body: usize) -> bool {
+        body != self.body && may_flow(simulation, body) && !self.structures.contains(&body)
     }
 
     /// Means since the last call, and the state now.

@@ -20,7 +20,7 @@ pub struct Survey {
     pub run_up: f64,
     /// 95th percentile of the heights of these points, m; zero if they are fewer than twenty.
     pub run_up_p95: f64,
-    /// Mass behind the barrier, there or already out of the domain, kg.
+    /// Mass behind the barrier, there or where it left the domain since the release, kg.
     pub behind: f64,
     /// Deepest that a point's domain lies inside the barrier, m.
     pub penetration: f64,
@@ -37,7 +37,7 @@ impl StructureGauge {
                 (*low, *high) = (low.min(x - reach), high.max(x + reach));
             }
         }
-        let mut found = Survey { behind: simulation.ledger().departed_mass, ..Survey::default() };
+        let mut found = Survey { behind: self.departed, ..Survey::default() };
         let (mut near, mut heights) = (Vec::new(), Vec::new());
         let [least, most] = bounds[0];
         let flows = |body| body != self.body && may_flow(simulation, body);
