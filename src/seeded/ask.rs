@@ -1,15 +1,14 @@
 //! Asks the tests of a binary about faults: runs that binary once more, with a fault at work, and reads what it says. For the unit tests
 //! of the library and for the ladder, which are binaries of their own; so it imports nothing of either.
 
-use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::channel;
-use std::time::{Duration, Instant};
+#[path = "child.rs"]
+mod child;
 
-/// How long an answer may take that takes seconds: what has not come by then does not come.
-pub const LIMIT: Duration = Duration::from_secs(600);
+pub use child::LIMIT;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 /// Who is asked in `cargo test` about each fault, and who else sees it. Written by `seeded::written_down` of the ladder.
 pub const TABLE: &str = "reports/verification/seeded.csv";
@@ -43,40 +42,10 @@ pub struct Answer {
     pub seconds: f64,
 }
 
-/// Runs this binary with a fault at work. Nothing is written or compared that has to do with reports. After `limit` it is killed, and
-/// whoever asked fails.
+/// Runs this binary with a fault at work, see `child`.
 pub fn under(fault: &str, variables: &[(&str, &str)], arguments: &[&str], limit: Duration) -> Answer {
     let start = Instant::now();
-    let mut command = Command::new(std::env::current_exe().expect("this binary"));
-    for variable in ["CHECKDAM_REPORTS", "INSTA_UPDATE", "RUST_BACKTRACE", "RUST_TEST_THREADS"] {
-        command.env_remove(variable);
-    }
-    command.env("CHECKDAM_SEEDED_FAULT", fault).env("RAYON_NUM_THREADS", "1").envs(variables.iter().copied());
-    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().expect("this binary once more");
-    let (say, heard) = channel();
-    let streams: [Box<dyn Read + Send>; 2] =
-        [Box::new(child.stdout.take().expect("a pipe")), Box::new(child.stderr.take().expect("a pipe"))];
-    for (k, mut stream) in streams.into_iter().enumerate() {
-        let say = say.clone();
-        std::thread::spawn(move || {
-            let mut bytes = Vec::new();
-            // What cannot be read is not said.
-            let _ = stream.read_to_end(&mut bytes);
-            let _ = say.send((k, bytes));
-        });
-    }
-    let mut said = [Vec::new(), Vec::new()];
-    for _ in 0..2 {
-        let Ok((k, bytes)) = heard.recv_timeout(limit.saturating_sub(start.elapsed())) else {
-            let _ = child.kill();
-            let _ = child.wait();
-            panic!("under the fault {fault} `{}` {variables:?} was killed after {limit:?}", arguments.join(" "));
-        };
-        said[k] = bytes;
-    }
-    child.wait().expect("its end");
-    let text = said.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).join("\n");
+    let text = child::under(fault, variables, arguments, limit);
     Answer { text, seconds: start.elapsed().as_secs_f64() }
 }
 

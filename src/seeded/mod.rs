@@ -128,10 +128,14 @@ pub fn times(seed: Seed, value: f64) -> f64 {
     if is(seed) { factor(seed) * value } else { value }
 }
 
-/// The wrong factor of a fault.
+/// The wrong factor of a fault: as the table has it, or as much to the other side where `CHECKDAM_SEEDED_OTHER_SIDE` is set.
 #[cold]
 fn factor(seed: Seed) -> f64 {
+    static OTHER_SIDE: std::sync::OnceLock<bool> = std::sync::OnceLock::new();
     match ALL[seed as usize].kind {
+        Kind::Times(factor) if *OTHER_SIDE.get_or_init(|| std::env::var_os("CHECKDAM_SEEDED_OTHER_SIDE").is_some()) => {
+            2.0 - factor
+        }
         Kind::Times(factor) => factor,
         _ => 1.0,
     }
