@@ -18,7 +18,9 @@ setTimeout(() => {
   found.moved = changed(first, later);
   set("quantity", 1, "change");
   found.recoloured = changed(later, grab());
-  found.read = document.querySelector("#charts .u-legend").textContent;
+  set("scrub", 7, "input");
+  found.read = [...document.querySelectorAll("#charts .u-legend:first-of-type .u-value")].slice(0, 2).map((e) => e.textContent).join(" ");
+  set("scrub", 4, "input");
   document.getElementById("theme").click();
   found.dark = changed(later, grab());
   set("scrub", 0, "input");

@@ -271,7 +271,16 @@ fn the_page_works_in_a_browser() {
         assert!(count(changed) > 200.0, "{changed}: {result}");
     }
     assert!(count("played") > 0.05, "the animation does not play: {result}");
-    assert!(answers["read"].contains(" s") && answers["read"].contains(" N"), "the cursor reads nothing: {result}");
+    // The cursor reads the row of the history at the time of the frame.
+    let read: Vec<&str> = answers["read"].split(' ').collect();
+    let [time, "s", force, unit] = read[..] else { panic!("the cursor reads {read:?}") };
+    let [time, force] = [time, force].map(|text| text.replace('\u{2212}', "-").parse::<f64>().unwrap());
+    let history = lab.read("run/history.csv");
+    let near = |line: &&str| line.split(',').next().unwrap().parse::<f64>().is_ok_and(|t| (t - time).abs() < 1e-4);
+    let row: Vec<f64> = history.lines().find(near).expect("a row").split(',').map(|c| c.parse().unwrap()).collect();
+    let error = (force * size(unit) - row[1]).abs();
+    assert!(row[1] > 1.0 && error <= ROUNDED * row[1], "the cursor reads {read:?}, the row has {} N", row[1]);
+    assert!((time - 0.35).abs() < 2e-3, "{time}");
 
     let paper = lab.path("page.pdf");
     let print = format!("--print-to-pdf={}", paper.display());

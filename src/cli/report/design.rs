@@ -119,6 +119,10 @@ fn sheet(numbers: &Numbers, barrier: &Barrier) -> String {
     if barrier.first && numbers.at(&at("barrier.arrival_s")).is_some() {
         rows.extend(approach(numbers));
     }
+    if !barrier.first {
+        let words = "<td>not read: the front is followed to the first barrier</td><td></td>";
+        rows.push(line("Approach", words, "summary.toml:front"));
+    }
     rows.extend(row(numbers, "Arrival at the barrier", Kind::Time, &at("barrier.arrival_s"), true));
     rows.extend(FORCES.iter().filter_map(|(label, kind, key)| row(numbers, label, *kind, &at(key), true)));
     let history = format!("history{}.csv", barrier.suffix);
@@ -130,7 +134,9 @@ fn sheet(numbers: &Numbers, barrier: &Barrier) -> String {
         let label = "Height of action in that sample: moment over force";
         rows.push(line(label, &format!("{cell}<td></td>"), &format!("{moment} over {largest}")));
     }
-    for (label, rule) in [("Largest sample of the force along the face", "max"), ("Least sample of it", "min")] {
+    for (label, rule) in
+        [("Largest sample of the force along the face", "max"), ("Least sample of the force along the face", "min")]
+    {
         let place = in_history("force_tangential_n", &format!("{rule} force_tangential_n"));
         rows.extend(row(numbers, label, Kind::Force, &place, true));
     }
@@ -265,15 +271,20 @@ pub fn health(numbers: &Numbers) -> String {
     table("Health of the run", NARROW, &lines)
 }
 
-/// All inputs with their defaults.
+/// All inputs with their defaults; the numbers of a list stand in one row.
 pub fn inputs(numbers: &Numbers) -> String {
-    let row = |(path, leaf): (String, crate::folder::Leaf)| {
-        format!(
-            "<tr><th scope=\"row\">{}</th><td>{}</td></tr>",
-            escape(&path),
-            escape(&shortened(&leaf.to_string(), 200))
-        )
+    let mut found: Vec<(String, String)> = Vec::new();
+    for (path, leaf) in numbers.run().case() {
+        let list = path.strip_suffix(']').and_then(|path| path.rsplit_once('[')).map(|(list, _)| list.to_owned());
+        match (list, found.last_mut()) {
+            (Some(list), Some((last, text))) if *last == list => *text += &format!(", {leaf}"),
+            (list, _) => found.push((list.unwrap_or(path), leaf.to_string())),
+        }
+    }
+    let row = |(path, text): &(String, String)| {
+        let cells = format!("<td>{}</td>", escape(&shortened(text, 400)));
+        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>", escape(path))
     };
-    let rows: Vec<String> = numbers.run().case().into_iter().map(row).collect();
+    let rows: Vec<String> = found.iter().map(row).collect();
     table("Inputs, with the defaults filled in", "<tr><th>field</th><th>value</th></tr>", &rows)
 }

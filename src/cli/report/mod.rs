@@ -161,7 +161,7 @@ fn origin(folder: &Path, version: &str) -> Result<String, String> {
         let bytes = std::fs::read(&path).map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         rows += &format!(
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"from\">{}</td></tr>",
+            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"from\">{}</td></tr>",
             escape(&name),
             bytes.len(),
             sha256::digest(&bytes)

@@ -3,7 +3,11 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const root = document.documentElement;
 const css = (name) => getComputedStyle(root).getPropertyValue(name).trim();
-const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c", "#7a5c00", "#6a3d9a", "#b15928"];
+const LIGHT = ["#0072b2", "#d55e00", "#009e73", "#b3508a", "#b87d00", "#2f8fc4", "#6f6f6f", "#7a5c00", "#6a3d9a", "#b15928"];
+const DARK = ["#58b0ee", "#ff8a3d", "#34d3a4", "#e79ac6", "#f2bd45", "#8fd0f7", "#b5b5b5", "#d1b14a", "#b79be0", "#e09a6b"];
+const system = matchMedia("(prefers-color-scheme: dark)");
+const isDark = () => (root.dataset.theme || (system.matches ? "dark" : "light")) === "dark";
+const colour = (k) => (isDark() ? DARK : LIGHT)[k % LIGHT.length];
 const charts = [];
 
 /** A number in four significant digits, as it is read. */
@@ -27,7 +31,8 @@ function room(chart, values, axisIndex, cycle) {
     chart.ctx.font = axis.font[0];
     size += chart.ctx.measureText(longest).width / devicePixelRatio;
   }
-  return Math.ceil(size) + 4;
+  // At least this, so that charts with short names stand one below the other.
+  return Math.max(58, Math.ceil(size) + 4);
 }
 
 function axis(label) {
@@ -61,14 +66,14 @@ function draw(parent, about) {
   parent.append(box);
   const series = [{ label: "time", value: (u, v) => (v == null ? "–" : read(v) + " s") }];
   about.series.forEach((s, k) => series.push({
-    label: s.label, stroke: COLOURS[k % COLOURS.length], width: k === 0 ? 1.8 : 1.1, points: { show: false },
+    label: s.label, stroke: () => colour(k) + (k === 0 ? "" : "c0"), width: k === 0 ? 1.8 : 1.1, points: { show: false },
     value: (u, v) => (v == null ? "–" : read(v) + " " + about.unit),
   }));
   const chart = new uPlot({
     width: width(box), height: 250, series,
     scales: { x: { time: false } },
-    axes: [axis("time (s)"), { ...axis(about.unit || "1"), size: room }],
-    cursor: { sync: { key: "run", scales: ["x", null] }, drag: { x: true, y: false }, focus: { prox: 24 } },
+    axes: [{ ...axis("time (s)"), size: 34 }, { ...axis(about.unit || "1"), size: room }],
+    cursor: { sync: { key: "run", scales: ["x", null] }, drag: { x: true, y: false }, y: false },
     legend: { live: true },
     hooks: { setScale: [zoomAll] },
   }, [about.time, ...about.series.map((s) => s.values)], box);
@@ -105,7 +110,7 @@ function study() {
     charts.push(new uPlot({
       width: width(target), height: 320, scales: { x: { time: false } },
       series: [{ label: a.name, value: (u, v) => read(v) },
-        { label: b.name, stroke: COLOURS[0], paths: () => null, points: { show: true, size: 7, fill: COLOURS[0] }, value: (u, v) => read(v) }],
+        { label: b.name, stroke: () => colour(0), paths: () => null, points: { show: true, size: 7, fill: () => colour(0) }, value: (u, v) => read(v) }],
       axes: [axis(a.name), { ...axis(b.name), size: room }],
     }, points, target));
   };
@@ -152,11 +157,18 @@ function startFlow() {
   // The x axis of a run points down the slope; here gravity points down.
   const turned = (x, y) => [x * cos + y * sin, -x * sin + y * cos];
   const [lo, hi] = [about.low, about.high];
-  const corners = [[lo[0], lo[1]], [hi[0], lo[1]], [lo[0], hi[1]], [hi[0], hi[1]]];
-  for (const o of data.outlines) if (o.kind !== "plane") corners.push(...o.corners);
-  const seen = corners.map(([x, y]) => turned(x, y));
-  const [left, right] = [Math.min(...seen.map((p) => p[0])), Math.max(...seen.map((p) => p[0]))];
-  const [low, high] = [Math.min(...seen.map((p) => p[1])), Math.max(...seen.map((p) => p[1]))];
+  const [w, h] = [(hi[0] - lo[0]) / 65535, (hi[1] - lo[1]) / 65535];
+  // What is in view: walls, and all points but the few that fly far.
+  const corners = data.outlines.filter((o) => o.kind !== "plane").flatMap((o) => o.corners).map(([x, y]) => turned(x, y));
+  const bounds = [0, 1].map((side) => {
+    const all = new Float32Array(frames.reduce((sum, f) => sum + f.n, 0));
+    let at = 0;
+    for (const f of frames) for (let k = 0; k < f.n; k++) all[at++] = turned(lo[0] + f.x[k] * w, lo[1] + f.y[k] * h)[side];
+    all.sort();
+    const walls = corners.map((p) => p[side]), cut = Math.floor(all.length / 2000);
+    return [Math.min(all[cut], ...walls), Math.max(all[all.length - 1 - cut], ...walls)];
+  });
+  const [[left, right], [low, high]] = bounds;
   const [BAR, PAD] = [46, 14];
   const context = stage.getContext("2d");
   const [scrub, clock, play, quantity, pace] = ["scrub", "clock", "play", "quantity", "pace"].map((id) => document.getElementById(id));
@@ -166,9 +178,9 @@ function startFlow() {
   const state = { frame: 0, playing: false, last: 0, time: frames[0].t };
 
   function bar(x, y, colours, name, most, unit) {
-    for (let k = 0; k < 128; k++) {
-      context.fillStyle = colours[2 * k];
-      context.fillRect(x + k * 1.25, y, 1.6, 9);
+    for (let k = 0; k < 160; k++) {
+      context.fillStyle = colours[Math.round((k / 159) * 255)];
+      context.fillRect(x + k, y, 1, 9);
     }
     context.fillStyle = css("--ink");
     context.font = "12px sans-serif";
@@ -178,7 +190,7 @@ function startFlow() {
     context.textBaseline = "top";
     context.fillText("0", x, y + 12);
     context.textAlign = "right";
-    context.fillText(read(most) + (unit ? " " + unit : ""), x + 160, y + 12);
+    context.fillText("≥ " + read(most) + (unit ? " " + unit : ""), x + 160, y + 12);
   }
 
   function render() {
@@ -191,7 +203,6 @@ function startFlow() {
       stage.width = Math.round(wide * ratio);
       stage.height = Math.round(tall * ratio);
       stage.style.width = wide + "px";
-      stage.style.height = tall + "px";
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.fillStyle = css("--stage");
@@ -216,7 +227,6 @@ function startFlow() {
       context.stroke();
     }
     const dot = Math.max(1.5, about.size * scale), half = dot / 2;
-    const [w, h] = [(hi[0] - lo[0]) / 65535, (hi[1] - lo[1]) / 65535];
     const values = f.values[q], grains = f.n - f.solids;
     for (let k = 0; k < f.n; k++) {
       const x = lo[0] + f.x[k] * w, y = lo[1] + f.y[k] * h;
@@ -286,7 +296,7 @@ function startFlow() {
   });
   const said = [`From ${about.source}: ${frames.length} frames.`];
   if (about.thinned) said.push(`Shown: ${about.thinned}.`);
-  said.push("Gravity points down. The last colour is also for the largest 0.2 % of the values.");
+  said.push("Gravity points down. The last colour is also that of the largest 0.2 % of the values, and a point in 2000 may be out of view.");
   document.getElementById("flow-note").textContent = said.join(" ");
   // What stands still, as in print, is where the force was largest.
   let first = 0;
@@ -299,20 +309,25 @@ startFlow();
 // ---------------------------------------------------------------- light, dark, paper
 
 function redraw() {
-  charts.forEach((chart) => chart.redraw(false, true));
+  charts.forEach((chart) => {
+    chart.redraw(true, true);
+    // The legend keeps the colours of its beginning.
+    chart.root.querySelectorAll(".u-legend .u-series").forEach((row, k) => {
+      const marker = row.querySelector(".u-marker");
+      if (marker && k > 0) marker.style.borderColor = colour(k - 1);
+    });
+  });
   if (flow) flow.render();
 }
 function fit(fixed) {
   charts.forEach((chart) => chart.setSize({ width: fixed || width(chart.root.parentElement), height: chart.height }));
   if (flow) flow.render();
 }
-const dark = matchMedia("(prefers-color-scheme: dark)");
 document.getElementById("theme").onclick = () => {
-  const now = root.dataset.theme || (dark.matches ? "dark" : "light");
-  root.dataset.theme = now === "dark" ? "light" : "dark";
+  root.dataset.theme = isDark() ? "light" : "dark";
   redraw();
 };
-dark.addEventListener("change", redraw);
+system.addEventListener("change", redraw);
 let before = null;
 addEventListener("beforeprint", () => {
   before = [root.dataset.theme, [...document.querySelectorAll("details:not([open])")]];
