@@ -11,7 +11,8 @@ const ROUNDED: f64 = 5.001e-4;
 
 /// [`TINY`] with a second barrier behind the first.
 fn two_barriers() -> String {
-    let second = "[[boundaries]]\nname = \"Second one\"\nkind = \"wall\"\nfoot_m = [0.6, 0.0]\nheight_m = 0.3\ncontact = \"smooth\"\n\n[stages.run]";
+    let second = "[[boundaries]]\nname = \"Second one\"\nkind = \"wall\"\nfoot_m = [0.6, 0.0]\nheight_m = 0.3\n\
+                  contact = \"smooth\"\n\n[stages.run]";
     changed("[stages.run]", second).replace("barrier = \"barrier\"", "barriers = [\"barrier\", \"Second one\"]")
 }
 
@@ -198,7 +199,8 @@ fn the_page_stands_alone_and_says_first_whether_to_trust_it() {
 fn a_study_has_a_page_too() {
     let lab = Lab::new(TINY);
     fs::create_dir(lab.path("study")).unwrap();
-    let rows = "case,friction_1,key,ended,trusted,peak_20ms_n\nc,0.2,k1,at rest,true,101.5\nc,0.4,k2,end time,false,80.25\nc,0.6,k3,failed: why,,\n";
+    let rows = "case,friction_1,key,ended,trusted,peak_20ms_n\nc,0.2,k1,at rest,true,101.5\nc,0.4,k2,end time,false,80.25\n\
+                c,0.6,k3,failed: why,,\n";
     fs::write(lab.path("study/runs.csv"), rows).unwrap();
     fs::write(lab.path("study/study.toml"), "title = \"Friction & more\"\n").unwrap();
     let outcome = lab.run(&["report", "study"]);

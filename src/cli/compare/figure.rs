@@ -9,8 +9,7 @@ use std::path::Path;
 const FORCES: Curves = Curves {
     x: "time_s",
     x_title: "time (s)",
-    y_title: "normal force on the first barrier (kN)",
-    y_times: 1e-3,
+    y_title: "normal force on the first barrier (N)",
     curves: &[Curve { column: "force_normal_n", label: "", exact: false }],
     split: &[("run", "")],
     ..Curves::LINEAR
@@ -37,8 +36,12 @@ pub fn draw(runs: [&Run; 2], out: &Path) -> Result<(), String> {
     }
     // A figure is drawn from a table; this one is nobody's result.
     let table = out.with_extension("overlay.tmp");
-    let newtons = Curves { y_times: 1.0, y_title: "normal force on the first barrier (N)", ..FORCES };
-    let what = if largest < 2e4 { &newtons } else { &FORCES };
+    let (y_title, y_times) = match largest {
+        force if force >= 2e7 => ("normal force on the first barrier (MN)", 1e-6),
+        force if force >= 2e4 => ("normal force on the first barrier (kN)", 1e-3),
+        _ => (FORCES.y_title, FORCES.y_times),
+    };
+    let what = &Curves { y_title, y_times, ..FORCES };
     Table::parse(&rows, &table).map_err(|error| error.to_string())?;
     std::fs::write(&table, &rows).map_err(|error| format!("cannot write beside {}: {error}", out.display()))?;
     let drawn = curves::draw(&table, what, out).map_err(|error| error.to_string());

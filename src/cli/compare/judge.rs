@@ -80,8 +80,8 @@ impl Line {
     }
 }
 
-/// (b - a) over the magnitude of a scale: zero where both are the same number, infinite where they are not and the scale is zero. None where one
-/// is no number.
+/// (b - a) over the magnitude of a scale: zero where both are the same number, infinite where they are not and the scale is zero. None
+/// where one is no number.
 pub fn relative(a: f64, b: f64, scale: f64) -> Option<f64> {
     match () {
         () if a.is_nan() || b.is_nan() => None,

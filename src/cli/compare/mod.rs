@@ -97,7 +97,7 @@ fn look(
     let unknown: Vec<_> = wanted.names.difference(&wanted.met.borrow()).cloned().collect();
     if !unknown.is_empty() {
         let error = format!(
-            "neither has {}\n  = fix: without --quantities all are listed; columns are named as history.csv:force_normal_n or force_normal_n",
+            "neither has {}\n  = fix: without --quantities all are listed; columns go by history.csv:force_normal_n or force_normal_n",
             unknown.join(", ")
         );
         return Err((BAD_INPUT, error));

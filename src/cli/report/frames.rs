@@ -1,7 +1,7 @@
-//! The flow over time: frames of points from the VTK files of a run, or of cells from `field.csv` where there are none, packed for the page.
+//! The flow over time, packed for the page: frames of points from the VTK files of a run, or of cells from `field.csv` without them.
 //!
-//! A point takes seven bytes a frame: two for each place, one each for speed, pressure and strain. Above a budget points are left out first,
-//! down to four thousand, then frames.
+//! A point takes seven bytes a frame: two for each place, one each for speed, pressure and strain. Above a budget points are left
+//! out first, down to four thousand, then frames.
 
 use super::base64;
 use crate::folder::Run;
@@ -126,11 +126,7 @@ type Packed = (Vec<Frame>, String, f64, String);
 fn from_vtk(run: &Run, list: &[(f64, String)], solid: &[usize]) -> Result<Packed, String> {
     let first = Vtp::read(&run.path.join(&list[0].1))?;
     let points = first.numbers("id")?.len();
-    let kept = (BUDGET / POINT_BYTES / list.len().max(1)).max(POINTS);
-    let every = points.div_ceil(kept.max(1)).max(1);
-    let in_a_frame = points.div_ceil(every);
-    let frames = (BUDGET / POINT_BYTES / in_a_frame.max(1)).max(1);
-    let stride = list.len().div_ceil(frames).max(1);
+    let [every, stride] = thinning(points, list.len());
     let mut read = Vec::new();
     for (time, name) in list.iter().step_by(stride) {
         let file = Vtp::read(&run.path.join(name))?;
@@ -163,6 +159,14 @@ fn from_vtk(run: &Run, list: &[(f64, String)], solid: &[usize]) -> Result<Packed
         said.push(format!("one of {stride} frames"));
     }
     Ok((read, "flow.pvd and vtk/".into(), size(run)? * (every as f64).sqrt(), said.join(", ")))
+}
+
+/// Of how many points and of how many frames one is kept, so that all fit: points are left out down to [`POINTS`], then frames.
+fn thinning(points: usize, frames: usize) -> [usize; 2] {
+    let kept = (BUDGET / POINT_BYTES / frames.max(1)).max(POINTS);
+    let every = points.div_ceil(kept).max(1);
+    let fit = (BUDGET / POINT_BYTES / points.div_ceil(every).max(1)).max(1);
+    [every, frames.div_ceil(fit).max(1)]
 }
 
 /// How wide a point is (m).
@@ -280,6 +284,20 @@ mod tests {
         assert_eq!(von_mises(&[3.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 3.0);
         assert!((von_mises(&[0.0, 0.0, 0.0, 2.0, 0.0, 0.0]) - 2.0 * 3.0f64.sqrt()).abs() < 1e-15);
         assert_eq!(von_mises(&[5.0, 5.0, 5.0, 0.0, 0.0, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn whatever_a_run_has_fits() {
+        // The flume: all of it.
+        assert_eq!(thinning(4000, 81), [1, 1]);
+        for points in [0, 1, 100, 4000, 4001, 30_000, 1_000_000] {
+            for frames in [1, 10, 81, 500, 100_000] {
+                let [every, stride] = thinning(points, frames);
+                let bytes = points.div_ceil(every) * frames.div_ceil(stride) * POINT_BYTES;
+                assert!(bytes <= BUDGET, "{points} points, {frames} frames: {bytes} bytes");
+                assert!(every == 1 || points > POINTS, "{points} points, {frames} frames: one of {every}");
+            }
+        }
     }
 
     #[test]

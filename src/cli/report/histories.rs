@@ -6,7 +6,7 @@ use checkdam::check::significant;
 use checkdam::output::Table;
 use serde_json::{Value, json};
 
-/// Rows of a table that are drawn at most.
+/// Rows of a table that are drawn at most, shared by the barriers.
 const ROWS: usize = 3000;
 /// Digits of the values.
 const DIGITS: usize = 6;
@@ -44,7 +44,8 @@ pub fn charts(numbers: &Numbers) -> Value {
             columns: columns.collect(),
         });
     }
-    json!(charts.iter().filter_map(|chart| draw(numbers, chart)).collect::<Vec<_>>())
+    let rows = ROWS / barriers(numbers).len().max(1);
+    json!(charts.iter().filter_map(|chart| draw(numbers, chart, rows)).collect::<Vec<_>>())
 }
 
 fn chart(title: impl Into<String>, kind: Kind, file: &str, columns: &[(&str, &str)]) -> Chart {
@@ -135,7 +136,7 @@ fn of_energy(numbers: &Numbers, charts: &mut Vec<Chart>) {
 }
 
 /// A chart with its data; none if the table or all of its columns are not there, or nothing in them is other than zero.
-fn draw(numbers: &Numbers, chart: &Chart) -> Option<Value> {
+fn draw(numbers: &Numbers, chart: &Chart, most: usize) -> Option<Value> {
     let table = numbers.tables().get(&chart.file).filter(|table| table.rows() > 1)?;
     let there: Vec<(&[f64], &(String, String))> =
         chart.columns.iter().filter_map(|c| Some((table.column(&c.0).ok()?, c))).collect();
@@ -150,7 +151,7 @@ fn draw(numbers: &Numbers, chart: &Chart) -> Option<Value> {
         return None;
     }
     let (unit, size) = chart.kind.unit(largest);
-    let rows = thinned(table, there[0].0);
+    let rows = thinned(table, there[0].0, most);
     let text = |value: f64| significant(value, DIGITS).parse::<f64>().ok().filter(|value| value.is_finite());
     let column = |values: &[f64], size: f64| rows.iter().map(|k| text(values[*k] / size)).collect::<Vec<_>>();
     let series = there
@@ -163,12 +164,12 @@ fn draw(numbers: &Numbers, chart: &Chart) -> Option<Value> {
 }
 
 /// The rows that are drawn: all, or of each interval the rows in which `values` are least and largest, with the first and the last row.
-fn thinned(table: &Table, values: &[f64]) -> Vec<usize> {
+fn thinned(table: &Table, values: &[f64], most: usize) -> Vec<usize> {
     let count = table.rows();
-    if count <= ROWS {
+    if count <= most {
         return (0..count).collect();
     }
-    let parts = ROWS / 2 - 1;
+    let parts = (most / 2).saturating_sub(1).max(1);
     let mut rows = vec![0, count - 1];
     for part in 0..parts {
         let range = part * count / parts..(part + 1) * count / parts;
@@ -192,9 +193,9 @@ mod tests {
             Table::parse(&text, "history.csv").expect("a table")
         };
         let few = table(100);
-        assert_eq!(thinned(&few, few.column("f_n").expect("f")).len(), 100);
+        assert_eq!(thinned(&few, few.column("f_n").expect("f"), ROWS).len(), 100);
         let many = table(50_000);
-        let rows = thinned(&many, many.column("f_n").expect("f"));
+        let rows = thinned(&many, many.column("f_n").expect("f"), ROWS);
         assert!(rows.len() <= ROWS && rows.len() > ROWS / 2, "{}", rows.len());
         assert!(rows.contains(&(50_000 / 3)) && rows[0] == 0 && rows.last() == Some(&49_999));
         assert!(rows.windows(2).all(|pair| pair[0] < pair[1]));

@@ -195,7 +195,10 @@ fn outlines(run: &Run) -> Result<serde_json::Value, String> {
     }
     let case = run.summary.get("case").and_then(|case| case.get("boundaries")).and_then(toml::Value::as_array);
     let text = |k: usize, key: &str| case.and_then(|list| list.get(k)?.get(key)?.as_str()).unwrap_or_default();
-    let outline = |(k, corners): &(usize, Vec<[f64; 2]>)| serde_json::json!({"name": text(*k, "name"), "kind": text(*k, "kind"), "corners": corners});
+    let outline = |(k, corners): &(usize, Vec<[f64; 2]>)| {
+        let [name, kind] = ["name", "kind"].map(|key| text(*k, key));
+        serde_json::json!({"name": name, "kind": kind, "corners": corners})
+    };
     Ok(found.iter().map(outline).collect())
 }
 

@@ -1,7 +1,7 @@
 //! Numbers of a run by the names of their files: where each stands, in which unit a person reads it, how it is printed.
 //!
-//! A place is `summary.toml:barrier.static_force_n`, or `history.csv:overturning_moment_n_m[max force_normal_n]`: the value of a column in the
-//! first row in which another is largest (`max`) or least (`min`).
+//! A place is `summary.toml:barrier.static_force_n`, or `history.csv:overturning_moment_n_m[max force_normal_n]`: the value of a column
+//! in the first row in which another is largest (`max`) or least (`min`).
 
 use super::escape;
 use crate::folder::{Leaf, Run};

@@ -83,7 +83,8 @@ pub fn animation(why_not: &str) -> String {
      <option value=\"2\">shear strain</option></select></label><label>pace <select id=\"pace\"><option value=\"0.1\">a tenth</option>\
      <option value=\"0.25\">a quarter</option><option value=\"0.5\" selected>half</option><option value=\"1\">as it was</option>\
      </select></label></div><canvas id=\"stage\" role=\"img\" aria-label=\"The material points at a time\"></canvas>\
-     <p class=\"hint\" id=\"flow-note\"></p><p class=\"hint\">Space plays and pauses, the arrow keys step, Home and End go to the first and last frame.</p>"
+     <p class=\"hint\" id=\"flow-note\"></p>\
+     <p class=\"hint\">Space plays and pauses, the arrow keys step, Home and End go to the first and last frame.</p>"
         .into()
 }
 

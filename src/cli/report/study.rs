@@ -63,7 +63,8 @@ pub fn page(folder: &Path, table: &Table) -> Result<Page, String> {
                 "runs",
                 "Runs",
                 format!(
-                    "{more}<div class=\"wide\"><table><caption>runs.csv</caption><thead><tr><th>row</th>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
+                    "{more}<div class=\"wide\"><table><caption>runs.csv</caption><thead><tr><th>row</th>{head}</tr></thead>\
+                     <tbody>{rows}</tbody></table></div>"
                 ),
             ),
             Part::new("origin", "Origin", origin(folder, "")?),
