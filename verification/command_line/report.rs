@@ -143,6 +143,21 @@ fn every_number_of_the_page_is_that_of_its_file() {
     let per_metre = found.iter().find(per_metre).expect("a force per metre");
     assert_eq!(per_metre.over.as_deref(), Some("summary.toml:case.grid.thickness_m"));
 
+    // A structure, and a size that is not that of a flume.
+    let plain = lab.read("run/summary.toml");
+    let structure =
+        "[structure]\npeak_clamp_n = 4.0e7\nstatic_clamp_moment_n_m = -12345.6\ntip_max_m = 0.0123456\ntorn = true\n";
+    fs::write(lab.path("run/summary.toml"), format!("{plain}\n{structure}")).unwrap();
+    assert_eq!(lab.run(&["report", "run", "--out", "bent.html"]).code, Some(0));
+    let bent = lab.read("bent.html");
+    assert!(wrong(&lab, &bent).is_empty(), "{}", wrong(&lab, &bent).join("\n"));
+    let shown: Vec<String> = printed(&bent).iter().map(|item| format!("{} {}", item.text, item.unit)).collect();
+    for text in ["40 MN", "200 MN/m", "-12.35 kN m", "0.01235 m"] {
+        assert!(shown.iter().any(|other| other == text), "no {text} in {shown:?}");
+    }
+    assert!(bent.contains("yes: what is read after that means nothing"));
+    fs::write(lab.path("run/summary.toml"), plain).unwrap();
+
     // A number of the page that is 3 % off is seen, and so is one of the run.
     let tag = text.split("<span ").find(|part| part.contains(":barrier.peak_20ms_n\"")).unwrap();
     let (shown, peak) = (tag.split(['>', '<']).nth(1).unwrap(), number(&lab, "summary.toml:barrier.peak_20ms_n"));
@@ -244,8 +259,11 @@ fn the_page_works_in_a_browser() {
     let (lab, text) = page(TINY);
     let collect = "<head><script>window.problems = []; addEventListener('error', (e) => problems.push(e.message)); \
                    const complain = console.error; console.error = (...a) => { problems.push(a.join(' ')); complain(...a); };</script>";
-    let asked = text.replacen("<head>", collect, 1).replace("</body>", &format!("<script>{QUESTIONS}</script></body>"));
-    fs::write(lab.path("asked.html"), &asked).unwrap();
+    let ask = |text: &str| {
+        let questions = format!("<script>{QUESTIONS}</script></body>");
+        text.replacen("<head>", collect, 1).replace("</body>", &questions)
+    };
+    fs::write(lab.path("asked.html"), ask(&text)).unwrap();
     let url = |name: &str| format!("file://{}", lab.path(name).display());
     let profile = lab.path("profile");
     let Some((dom, log)) = browser(&["--virtual-time-budget=8000", "--dump-dom", &url("asked.html")], &profile) else {
@@ -283,6 +301,16 @@ fn the_page_works_in_a_browser() {
     let error = (force * size(unit) - row[1]).abs();
     assert!(row[1] > 1.0 && error <= ROUNDED * row[1], "the cursor reads {read:?}, the row has {} N", row[1]);
     assert!((time - 0.35).abs() < 2e-3, "{time}");
+
+    // A page that breaks is seen.
+    let broken = text.replacen("\nstartFlow();\n", "\nnothing.is.here();\n", 1);
+    assert_ne!(broken, text);
+    fs::write(lab.path("broken.html"), ask(&broken)).unwrap();
+    let arguments = ["--virtual-time-budget=8000", "--dump-dom", &url("broken.html")];
+    let (dom, log) = browser(&arguments, &profile).expect("a browser");
+    assert!(log.contains("nothing is not defined"), "{log}");
+    let answers = dom.split("<pre id=\"result\">").nth(1).unwrap_or_default();
+    assert!(!answers.contains("problems: \n"), "nothing was collected: {answers}");
 
     let paper = lab.path("page.pdf");
     let print = format!("--print-to-pdf={}", paper.display());

@@ -126,9 +126,9 @@ type Packed = (Vec<Frame>, String, f64, String);
 fn from_vtk(run: &Run, list: &[(f64, String)], solid: &[usize]) -> Result<Packed, String> {
     let first = Vtp::read(&run.path.join(&list[0].1))?;
     let points = first.numbers("id")?.len();
-    let [every, stride] = thinning(points, list.len());
+    let [every, kept] = thinning(points, list.len());
     let mut read = Vec::new();
-    for (time, name) in list.iter().step_by(stride) {
+    for (time, name) in (0..kept).map(|k| &list[k * (list.len() - 1) / (kept - 1).max(1)]) {
         let file = Vtp::read(&run.path.join(name))?;
         let [at, body, id] = [file.numbers("Points")?, file.numbers("body")?, file.numbers("id")?];
         let [speed, mean] = [file.numbers("speed_m_per_s")?, file.numbers("mean_stress_pa")?];
@@ -139,7 +139,7 @@ fn from_vtk(run: &Run, list: &[(f64, String)], solid: &[usize]) -> Result<Packed
             return Err(format!("{name}: its arrays are not of one length"));
         }
         let mut frame = Frame { time: *time, points: Vec::new() };
-        for k in (0..n).filter(|k| id[*k] as u64 % every as u64 == 0) {
+        for k in (0..n).filter(|k| (id[*k] as u64).is_multiple_of(every as u64)) {
             let body = body[k] as usize;
             let values = if solid.contains(&body) {
                 let mises = von_mises(&stress[6 * k..6 * k + 6]);
@@ -155,18 +155,18 @@ fn from_vtk(run: &Run, list: &[(f64, String)], solid: &[usize]) -> Result<Packed
     if every > 1 {
         said.push(format!("one of {every} points"));
     }
-    if stride > 1 {
-        said.push(format!("one of {stride} frames"));
+    if kept < list.len() {
+        said.push(format!("{kept} of {} frames", list.len()));
     }
     Ok((read, "flow.pvd and vtk/".into(), size(run)? * (every as f64).sqrt(), said.join(", ")))
 }
 
-/// Of how many points and of how many frames one is kept, so that all fit: points are left out down to [`POINTS`], then frames.
+/// Of how many points one is kept, and how many frames, so that all fit: points are left out down to [`POINTS`], then frames.
 fn thinning(points: usize, frames: usize) -> [usize; 2] {
     let kept = (BUDGET / POINT_BYTES / frames.max(1)).max(POINTS);
     let every = points.div_ceil(kept).max(1);
     let fit = (BUDGET / POINT_BYTES / points.div_ceil(every).max(1)).max(1);
-    [every, frames.div_ceil(fit).max(1)]
+    [every, frames.min(fit)]
 }
 
 /// How wide a point is (m).
@@ -289,12 +289,13 @@ mod tests {
     #[test]
     fn whatever_a_run_has_fits() {
         // The flume: all of it.
-        assert_eq!(thinning(4000, 81), [1, 1]);
+        assert_eq!(thinning(4000, 81), [1, 81]);
         for points in [0, 1, 100, 4000, 4001, 30_000, 1_000_000] {
             for frames in [1, 10, 81, 500, 100_000] {
-                let [every, stride] = thinning(points, frames);
-                let bytes = points.div_ceil(every) * frames.div_ceil(stride) * POINT_BYTES;
+                let [every, kept] = thinning(points, frames);
+                let bytes = points.div_ceil(every) * kept * POINT_BYTES;
                 assert!(bytes <= BUDGET, "{points} points, {frames} frames: {bytes} bytes");
+                assert!(kept > 0 && kept <= frames, "{points} points, {frames} frames: {kept} kept");
                 assert!(every == 1 || points > POINTS, "{points} points, {frames} frames: one of {every}");
             }
         }
