@@ -1,6 +1,7 @@
 //! The command as a user meets it: exit codes, messages, what is in the folder afterwards and what is not.
 
 mod begin;
+mod browser;
 mod compare;
 mod documents;
 mod interrupted;

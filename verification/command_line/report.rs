@@ -1,13 +1,10 @@
-//! `checkdam report`: every number of the page is that of its file, and the page works in a browser.
+//! `checkdam report`: every number of the page is that of its file, and the page stands alone.
 
 use crate::lab::{Lab, TINY, changed};
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
 /// Digits that the page prints: half a unit of the last is this share at most.
-const ROUNDED: f64 = 5.001e-4;
+pub const ROUNDED: f64 = 5.001e-4;
 
 /// [`TINY`] with a second barrier behind the first.
 fn two_barriers() -> String {
@@ -17,7 +14,7 @@ fn two_barriers() -> String {
 }
 
 /// Runs a case and makes its page.
-fn page(case: &str) -> (Lab, String) {
+pub fn page(case: &str) -> (Lab, String) {
     let lab = Lab::new(case);
     assert_eq!(lab.run(&["run", "case.toml", "--out", "run"]).code, Some(4));
     let outcome = lab.run(&["report", "run"]);
@@ -51,7 +48,7 @@ fn printed(page: &str) -> Vec<Printed> {
 }
 
 /// How many of SI a unit is.
-fn size(unit: &str) -> f64 {
+pub fn size(unit: &str) -> f64 {
     match unit {
         "%" => 0.01,
         "t" => 1e3,
@@ -225,98 +222,4 @@ fn a_study_has_a_page_too() {
     for part in ["Friction &amp; more", "101.5", "80.25", "failed: why"] {
         assert!(text.contains(part), "no {part}");
     }
-}
-
-/// Runs the browser; none if there is none.
-fn browser(arguments: &[&str], profile: &Path) -> Option<(String, String)> {
-    let named = std::env::var("CHROMIUM").ok();
-    let names = ["chromium", "chromium-browser", "google-chrome"].map(str::to_owned);
-    for name in named.into_iter().chain(names) {
-        let mut command = Command::new(name);
-        command.args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--disable-dev-shm-usage",
-            "--enable-logging=stderr",
-        ]);
-        command.arg(format!("--user-data-dir={}", profile.display())).args(arguments);
-        if let Ok(output) = command.output() {
-            let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-            return Some((text(&output.stdout), text(&output.stderr)));
-        }
-    }
-    None
-}
-
-/// What the page is asked in the browser; the answers are written into it.
-const QUESTIONS: &str = include_str!("questions.js");
-
-/// Asks a real browser. `.ci/run` installs one and asks; without one this says so.
-#[test]
-#[ignore = "needs Chromium; .ci/run asks it"]
-fn the_page_works_in_a_browser() {
-    let (lab, text) = page(TINY);
-    let collect = "<head><script>window.problems = []; addEventListener('error', (e) => problems.push(e.message)); \
-                   const complain = console.error; console.error = (...a) => { problems.push(a.join(' ')); complain(...a); };</script>";
-    let ask = |text: &str| {
-        let questions = format!("<script>{QUESTIONS}</script></body>");
-        text.replacen("<head>", collect, 1).replace("</body>", &questions)
-    };
-    fs::write(lab.path("asked.html"), ask(&text)).unwrap();
-    let url = |name: &str| format!("file://{}", lab.path(name).display());
-    let profile = lab.path("profile");
-    let Some((dom, log)) = browser(&["--virtual-time-budget=8000", "--dump-dom", &url("asked.html")], &profile) else {
-        println!("NOT RUN: there is no Chromium here (apt-get install chromium, or name one in CHROMIUM)");
-        return;
-    };
-    let result = dom.split("<pre id=\"result\">").nth(1).unwrap_or_else(|| panic!("no answers:\n{log}"));
-    let result = unescaped(result.split("</pre>").next().unwrap());
-    println!("{result}");
-    let answers: BTreeMap<&str, &str> =
-        result.lines().filter_map(|line| line.split_once(": ").or(Some((line.trim_end_matches(':'), "")))).collect();
-    let count = |key: &str| answers[key].parse::<f64>().unwrap_or_else(|_| panic!("{key}: {result}"));
-    assert_eq!((answers["problems"], answers["ready"]), ("", "true"), "{result}");
-    assert!(!log.lines().any(|line| line.contains("CONSOLE") && line.contains("rror")), "{log}");
-    assert_eq!(count("fetched"), 0.0, "{result}");
-    let rows = lab.rows("run");
-    let drawn: Vec<usize> = answers["rows"].split(' ').map(|n| n.parse().unwrap()).collect();
-    assert!(
-        drawn.len() >= 6 && drawn[0] == rows["history.csv"] && drawn.contains(&rows["energy.csv"]),
-        "{drawn:?} {rows:?}"
-    );
-    assert!(count("blue") > 100.0, "no curve is drawn: {result}");
-    assert_eq!(count("frames"), 9.0);
-    for changed in ["moved", "recoloured", "dark"] {
-        assert!(count(changed) > 200.0, "{changed}: {result}");
-    }
-    assert!(count("played") > 0.05, "the animation does not play: {result}");
-    // The cursor reads the row of the history at the time of the frame.
-    let read: Vec<&str> = answers["read"].split(' ').collect();
-    let [time, "s", force, unit] = read[..] else { panic!("the cursor reads {read:?}") };
-    let [time, force] = [time, force].map(|text| text.replace('\u{2212}', "-").parse::<f64>().unwrap());
-    let history = lab.read("run/history.csv");
-    let near = |line: &&str| line.split(',').next().unwrap().parse::<f64>().is_ok_and(|t| (t - time).abs() < 1e-4);
-    let row: Vec<f64> = history.lines().find(near).expect("a row").split(',').map(|c| c.parse().unwrap()).collect();
-    let error = (force * size(unit) - row[1]).abs();
-    assert!(row[1] > 1.0 && error <= ROUNDED * row[1], "the cursor reads {read:?}, the row has {} N", row[1]);
-    assert!((time - 0.35).abs() < 2e-3, "{time}");
-
-    // A page that breaks is seen.
-    let broken = text.replacen("\nstartFlow();\n", "\nnothing.is.here();\n", 1);
-    assert_ne!(broken, text);
-    fs::write(lab.path("broken.html"), ask(&broken)).unwrap();
-    let arguments = ["--virtual-time-budget=8000", "--dump-dom", &url("broken.html")];
-    let (dom, log) = browser(&arguments, &profile).expect("a browser");
-    assert!(log.contains("nothing is not defined"), "{log}");
-    let answers = dom.split("<pre id=\"result\">").nth(1).unwrap_or_default();
-    assert!(!answers.contains("problems: \n"), "nothing was collected: {answers}");
-
-    let paper = lab.path("page.pdf");
-    let print = format!("--print-to-pdf={}", paper.display());
-    browser(&["--virtual-time-budget=8000", "--no-pdf-header-footer", &print, &url("run/report.html")], &profile)
-        .expect("a browser");
-    let pdf = fs::read(&paper).expect("a PDF");
-    let pages = pdf.windows(11).filter(|w| *w == b"/Type /Page").count();
-    assert!(pdf.starts_with(b"%PDF") && pages >= 3, "{pages} pages");
 }
