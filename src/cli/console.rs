@@ -11,8 +11,13 @@ static FAILURE: Mutex<Option<String>> = Mutex::new(None);
 
 /// Writes a line to the standard output; see [`say!`](crate::say).
 pub fn out(line: Arguments) {
+    raw(format!("{}\n", plain(line)).as_bytes());
+}
+
+/// Writes bytes to the standard output as they are: what another program reads.
+pub fn raw(bytes: &[u8]) {
     let mut out = stdout();
-    if let Err(error) = writeln!(out, "{}", plain(line)).and_then(|()| out.flush())
+    if let Err(error) = out.write_all(bytes).and_then(|()| out.flush())
         && error.kind() != ErrorKind::BrokenPipe
     {
         FAILURE.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error.to_string());

@@ -1,9 +1,14 @@
 //! The command line: thin.
 
 mod check;
+mod compare;
 mod console;
+mod folder;
+mod help;
 mod memory;
+mod new;
 mod progress;
+mod report;
 mod run;
 mod study;
 mod suite;
@@ -21,7 +26,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[cfg(not(debug_assertions))]
 const _: () = assert!(!checkdam::seeded::COMPILED);
 
-/// Exit code when a check failed.
+/// Exit code when a check failed, or a comparison found a difference above its tolerance.
 const CHECK_FAILED: u8 = 1;
 /// Exit code when the input is at fault, and nothing was computed.
 const BAD_INPUT: u8 = 2;
@@ -40,6 +45,7 @@ const NOT_TRUSTED: u8 = 4;
     max_term_width = 110,
     after_help = "\
 Start here:
+  checkdam new   sand.toml                       a case with comments, to change
   checkdam check validation/flume/40deg.toml     what would run, and how long it would take
   checkdam run   validation/flume/40deg.toml     run it into out/40deg
   checkdam verify                                are the equations solved right? every rung against its closed form
@@ -49,7 +55,7 @@ The comments in validation/flume/40deg.toml explain every field of a case file.
 
 Exit codes:
   0  done
-  1  a check of the verification ladder or of a validation failed
+  1  a check of the verification ladder or of a validation failed, or a comparison found a difference
   2  the input is at fault; nothing was written
   3  the run failed, was stopped or, on check, would fail; or the output could not be written
   4  the run is done and not to be trusted: summary.toml begins with the reasons"
@@ -105,6 +111,47 @@ enum Command {
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
     },
+    /// Write a case to begin with: sand in a flume against a wall, with a comment for every field.
+    New {
+        /// The file to write; it must not exist.
+        #[arg(value_name = "FILE.toml", default_value = "case.toml")]
+        file: PathBuf,
+    },
+    /// Make one page (HTML) of a run or a study, that opens in any browser without a network.
+    ///
+    /// It has the verdict, a design sheet for each barrier with the file and the name of every number, histories to zoom and read, the
+    /// flow to play and scrub, ledgers, figures, all inputs and the digests of the files. It prints to a clean PDF.
+    Report {
+        /// Folder of a run or of a study.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// The file to write; an earlier report of that name is replaced [default: report.html in the folder]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Compare two runs, or two studies: relative differences side by side.
+    ///
+    /// Reads summary.toml and the tables over time of two runs, or runs.csv of two studies, row by row. Numbers of a run are compared
+    /// relative to A, columns by their largest difference over the range of the column, on the times that both have. What
+    /// only one side has, and what is no number, counts as different; so does zero against anything else. Residuals are
+    /// relative to what they are left of. VTK frames are not compared. Exit code 1 says that something is above the tolerance.
+    Compare {
+        /// Folder of a run or of a study; differences are relative to it.
+        #[arg(value_name = "A")]
+        a: PathBuf,
+        /// The other folder.
+        #[arg(value_name = "B")]
+        b: PathBuf,
+        /// Relative difference that is allowed, from 0 to below 1; the same case gives the same bits
+        #[arg(long, value_name = "R", default_value = "0", value_parser = compare::tolerance)]
+        tolerance: f64,
+        /// Quantities to compare [default: all], by the names that are printed or their last parts
+        #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+        quantities: Vec<String>,
+        /// Draw the force on the first barrier of both over time (SVG)
+        #[arg(long, value_name = "FILE")]
+        figure: Option<PathBuf>,
+    },
     /// Run the verification ladder: print what was measured beside what should come out, write tables and figures.
     Verify {
         /// Rungs to run [default: all]
@@ -126,6 +173,18 @@ enum Command {
         #[arg(long, value_name = "DIR", default_value = "out/validation")]
         out: PathBuf,
     },
+    /// Print what a shell reads to complete commands: `checkdam completions bash > ~/.local/share/bash-completion/completions/checkdam`
+    Completions {
+        /// The shell.
+        #[arg(value_name = "SHELL")]
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page: `checkdam man | man -l -`
+    Man {
+        /// The command to print the page of [default: the program]
+        #[arg(value_name = "COMMAND")]
+        command: Option<String>,
+    },
 }
 
 /// Parses the command line and does what it says.
@@ -134,6 +193,13 @@ pub fn main() -> ExitCode {
         Command::Run { case, out, threads } => run::run(&case, out, threads),
         Command::Check { case, threads } => check::check(&case, threads),
         Command::Study { study, out, check, threads } => study::study(&study, out, threads, check),
+        Command::New { file } => new::new(&file),
+        Command::Report { folder, out } => report::report(&folder, out),
+        Command::Completions { shell } => help::completions(shell),
+        Command::Man { command } => help::man(command.as_deref()),
+        Command::Compare { a, b, tolerance, quantities, figure } => {
+            compare::compare([&a, &b], tolerance, &quantities, figure.as_deref())
+        }
         Command::Verify { rungs, out } => verify::verify(&rungs, &out),
         Command::Validate { names, studies, out } => validate::validate(&names, studies, &out),
     };

@@ -22,6 +22,23 @@ const BARRIER_FORCES: Curves = Curves {
     ..Curves::LINEAR
 };
 
+/// [`BARRIER_FORCES`] in the unit in which forces of this size (N) are read: eight digits would meet the axis' title.
+fn barrier_forces(largest: f64) -> Curves<'static> {
+    let (y_title, y_times) = match largest {
+        force if force >= 2e7 => ("force against the face (MN)", 1e-6),
+        force if force >= 2e4 => ("force against the face (kN)", 1e-3),
+        _ => (BARRIER_FORCES.y_title, BARRIER_FORCES.y_times),
+    };
+    Curves { y_title, y_times, ..BARRIER_FORCES }
+}
+
+/// The largest magnitude (N) in the columns of these curves.
+fn largest(table: &Path, curves: &Curves) -> f64 {
+    let Ok(table) = Table::load(table) else { return 0.0 };
+    let columns = curves.curves.iter().filter_map(|curve| table.column(curve.column).ok());
+    columns.flatten().filter(|force| force.is_finite()).fold(0.0, |most, force| most.max(force.abs()))
+}
+
 /// Its face, bent.
 const PEAK_DEFLECTION: Curves = Curves {
     x: "deflection_m",
@@ -76,7 +93,8 @@ fn draw_barrier(
     let has_rows = |name: &str| !Table::load(at(name, "csv")).is_ok_and(|table| table.rows() == 0);
     let mut results = Vec::new();
     if barrier.structure().is_some() && has_rows("barrier") {
-        results.push(plot::curves::draw(at("barrier", "csv"), &BARRIER_FORCES, at("barrier_forces", "svg")));
+        let forces = barrier_forces(largest(&at("barrier", "csv"), &BARRIER_FORCES));
+        results.push(plot::curves::draw(at("barrier", "csv"), &forces, at("barrier_forces", "svg")));
     }
     if !barrier.peak_profile().points.is_empty() {
         let (table, figure) = (at("barrier_profile_at_peak", "csv"), at("barrier_deflection", "svg"));
@@ -94,4 +112,22 @@ fn draw_barrier(
         results.push(plot::pressure_profile::draw(table, figure));
     }
     results
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_are_drawn_in_the_unit_in_which_they_are_read() {
+        for (force, unit, shown) in [(300.0, "(N)", 300.0), (5e4, "(kN)", 50.0), (4e7, "(MN)", 40.0)] {
+            let what = barrier_forces(force);
+            assert!(what.y_title.ends_with(unit) && (what.y_times * force - shown).abs() < 1e-9, "{what:?}");
+        }
+        let folder = tempfile::tempdir().expect("a folder");
+        let table = folder.path().join("barrier.csv");
+        std::fs::write(&table, "time_s,contact_normal_n,clamp_normal_n,inertia_normal_n\n0,1,-4e7,\n")
+            .expect("written");
+        assert_eq!(largest(&table, &BARRIER_FORCES), 4e7);
+    }
 }

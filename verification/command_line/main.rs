@@ -1,8 +1,12 @@
 //! The command as a user meets it: exit codes, messages, what is in the folder afterwards and what is not.
 
+mod begin;
+mod browser;
+mod compare;
 mod documents;
 mod interrupted;
 mod lab;
+mod report;
 mod run;
 mod snippets;
 mod study;
