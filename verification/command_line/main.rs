@@ -1,6 +1,7 @@
 //! The command as a user meets it: exit codes, messages, what is in the folder afterwards and what is not.
 
 mod documents;
+mod faults;
 mod interrupted;
 mod lab;
 mod run;
