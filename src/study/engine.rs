@@ -87,7 +87,7 @@ pub fn run(
                     let made = attempt(run, folder, &mut inside);
                     let (progress, runs, go_on, failure, finished) = &mut *lock();
                     let kept = made.and_then(|row| {
-                        let Some(row) = row.filter(|_| *go_on) else { return Ok(None) };
+                        let Some(row) = row else { return Ok(None) };
                         let ended = row.ended.clone();
                         runs.insert(run, row);
                         folder.map_or(Ok(()), |folder| folder.save(plan, runs)).map(|()| Some(ended))

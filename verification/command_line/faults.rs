@@ -3,7 +3,7 @@
 //! `docs/cluster.md` has the table.
 #![cfg(unix)]
 
-use crate::interrupted::{start, wait_until};
+use crate::interrupted::{end, start, wait_until};
 use crate::lab::{Lab, Outcome, TINY, long};
 use std::fs;
 use std::path::Path;
@@ -85,7 +85,9 @@ fn a_run_that_is_killed_says_so_and_can_be_replaced() {
         assert!(other.err.contains(&format!("in use by process {} on ", child.id())), "{}", other.err);
         kill(child);
         assert_eq!(lab.status("results"), "running");
-        assert!(lab.read("results/summary.toml").starts_with("trusted = false\nreasons = [\"the run is not at its end"));
+        assert!(
+            lab.read("results/summary.toml").starts_with("trusted = false\nreasons = [\"the run is not at its end")
+        );
         lab.rows("results");
     }
     let refused = lab.run(&["run", "case.toml", "--out", "results"]);
@@ -118,13 +120,20 @@ fn of_two_runs_into_one_folder_one_is_refused() {
 
 #[test]
 fn of_two_studies_in_one_folder_one_is_refused() {
-    let lab = study_lab();
-    let both = [0, 1].map(|_| start(&lab, &WORK));
-    let outcomes = both.map(ended);
-    let refused = outcomes.iter().find(|o| o.code == Some(2)).unwrap_or_else(|| panic!("{outcomes:?}"));
-    assert!(refused.err.contains("error: results is in use by process"), "{}", refused.err);
-    assert_eq!(outcomes.iter().filter(|o| o.code == Some(0)).count(), 1, "{outcomes:?}");
-    assert_eq!(lab.read("results/runs.csv"), undisturbed());
+    let lab = Lab::new(&long());
+    fs::write(lab.path("friction.toml"), STUDY).unwrap();
+    let first = start(&lab, &WORK);
+    wait_until("the first study", || lab.path("results/runs.csv").exists());
+    let before = lab.read("results/runs.csv");
+    for task in [&WORK[..], &["study", "friction.toml", "--out", "results", "--run", "1"]] {
+        let second = lab.run(task);
+        assert_eq!(second.code, Some(2), "{second:?}");
+        let words = format!("error: results is in use by process {} on ", first.id());
+        assert!(second.err.contains(&words), "{}", second.err);
+    }
+    assert_eq!(lab.read("results/runs.csv"), before);
+    assert_eq!(end(first, "-INT").code, Some(3));
+    assert!(lab.read("results/status.toml").starts_with("status = \"incomplete\""));
 }
 
 #[test]
@@ -144,7 +153,8 @@ fn damaged_files_of_a_study_are_noticed() {
     fs::write(lab.path("results/runs.csv"), "").unwrap();
     let outcome = lab.run(&WORK);
     assert!(outcome.code == Some(0) && !outcome.out.contains("_before_"), "{outcome:?}");
-    let result = lab.contents("results").into_keys().find(|name| name.ends_with(".toml") && name.contains('/')).unwrap();
+    let result =
+        lab.contents("results").into_keys().find(|name| name.ends_with(".toml") && name.contains('/')).unwrap();
     fs::write(lab.path(&format!("results/{result}")), "key = \"cut").unwrap();
     let collected = lab.run(&["study", "friction.toml", "--out", "results", "--collect"]);
     assert_eq!(collected.code, Some(3), "{collected:?}");
@@ -172,7 +182,17 @@ fn a_folder_that_is_taken_away_ends_the_run() {
 
 #[test]
 fn a_folder_that_is_taken_away_ends_the_study() {
-    let lab = study_lab();
+    // The first run takes minutes; beside it one short run follows the other.
+    let ends: Vec<String> = (0..30).map(|k| format!("0.4{k:02}")).collect();
+    let study = |first: &str| {
+        let axis = format!(
+            "name = \"end_s\"\nfields = [\"stages.run.end_time_s\"]\nvalues = [{first}, {}]\n",
+            ends.join(", ")
+        );
+        format!("title = \"Ends\"\ncases = [\"case.toml\"]\n[[axis]]\n{axis}")
+    };
+    let lab = Lab::new(TINY);
+    fs::write(lab.path("friction.toml"), study("400.0")).unwrap();
     let child = start(&lab, &WORK);
     let rows = || fs::read_to_string(lab.path("results/runs.csv")).map_or(0, |text| text.lines().count());
     wait_until("the first rows", || rows() >= 2);
@@ -182,9 +202,12 @@ fn a_folder_that_is_taken_away_ends_the_study() {
     assert!(outcome.err.contains("error: results was deleted or moved"), "{}", outcome.err);
     assert!(!lab.path("results").exists());
     // What was moved goes on where it was.
-    let outcome = lab.run(&["study", "friction.toml", "--out", "moved"]);
-    assert_eq!(outcome.code, Some(0), "{outcome:?}");
-    assert_eq!(lab.read("moved/runs.csv"), undisturbed());
+    fs::write(lab.path("friction.toml"), study("0.3")).unwrap();
+    for out in ["moved", "undisturbed"] {
+        let outcome = lab.run(&["study", "friction.toml", "--out", out]);
+        assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    }
+    assert_eq!(lab.read("moved/runs.csv"), lab.read("undisturbed/runs.csv"));
 }
 
 #[test]
@@ -225,7 +248,8 @@ fn a_full_disk_ends_in_order_and_the_study_goes_on() {
         mount -o remount,size=8m disk
         code=0; \"$0\" study friction.toml --out disk/s > out2 2> err2 || code=$?; echo $code > code2
         cp disk/s/runs.csv table2
-        mount -o remount,size=640k disk
+        rm -r disk/s
+        mount -o remount,size=200k disk
         code=0; \"$0\" run case.toml --out disk/r > out3 2> err3 || code=$?; echo $code > code3
         cp disk/r/summary.toml disk/r/history.csv .";
     let Some(output) = with_own_mounts(&lab, script) else { return };

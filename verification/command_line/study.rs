@@ -123,7 +123,11 @@ fn runs_that_are_made_one_by_one_make_the_same_table() {
     let list = task(&["--list"]);
     assert_eq!(list.code, Some(0), "{list:?}");
     let commands: Vec<&str> = list.out.lines().collect();
-    assert!(commands.len() == 4 && commands[0].contains(" study friction.toml --out 'each one' --run "), "{}", list.out);
+    assert!(
+        commands.len() == 4 && commands[0].contains(" study friction.toml --out 'each one' --run "),
+        "{}",
+        list.out
+    );
     let status = || lab.read("each one/status.toml").lines().next().unwrap().to_string();
     assert_eq!(status(), "status = \"listed\"");
     let manifest = lab.read("each one/manifest.csv");
