@@ -20,8 +20,18 @@ const ATTEMPTS: usize = 100;
 pub struct Lock {
     path: PathBuf,
     file: File,
-    /// Whether nobody else may hold it; then the file is deleted at the end.
-    alone: bool,
+    kind: Kind,
+}
+
+/// What is claimed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Nobody else may hold it; the file is deleted at the end.
+    Alone,
+    /// The same, but not where the file system has no locks.
+    IfPossible,
+    /// Others may share it.
+    Shared,
 }
 
 impl Lock {
@@ -30,7 +40,7 @@ impl Lock {
     /// # Errors
     /// [`OutputError::InUse`] with the other process if there is one; [`OutputError::Create`] if the file cannot be made.
     pub fn alone(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
-        Self::claim(path.into(), true)
+        Self::claim(path.into(), Kind::Alone)
     }
 
     /// For all who share it: nobody has it alone at the same time.
@@ -38,16 +48,24 @@ impl Lock {
     /// # Errors
     /// As [`Self::alone`].
     pub fn shared(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
-        Self::claim(path.into(), false)
+        Self::claim(path.into(), Kind::Shared)
     }
 
-    fn claim(path: PathBuf, alone: bool) -> Result<Self, OutputError> {
+    /// For this process alone, where the file system has locks; where it has none, for what does no harm if two do it.
+    ///
+    /// # Errors
+    /// As [`Self::alone`].
+    pub fn if_possible(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
+        Self::claim(path.into(), Kind::IfPossible)
+    }
+
+    fn claim(path: PathBuf, kind: Kind) -> Result<Self, OutputError> {
         let fail = |source| OutputError::Create { path: path.clone(), source };
         for _ in 0..ATTEMPTS {
             let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
             let mut file = options.map_err(fail)?;
             let mut who = String::new();
-            match if alone { file.try_lock() } else { file.try_lock_shared() } {
+            match if kind == Kind::Shared { file.try_lock_shared() } else { file.try_lock() } {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
                     let _ = file.read_to_string(&mut who);
@@ -56,15 +74,18 @@ impl Lock {
                 // Some file systems of clusters have no locks: then the text has to do.
                 Err(TryLockError::Error(_)) => {
                     let _ = file.read_to_string(&mut who);
-                    if alone && may_live(&who, &host()) {
-                        return Err(OutputError::InUse { path, holder: in_words(&who) });
+                    if kind == Kind::Alone && may_live(&who, &host()) {
+                        let told = in_words(&who);
+                        let holder =
+                            format!("{told} (there are no locks here: if it is dead, delete {})", path.display());
+                        return Err(OutputError::InUse { path, holder });
                     }
                 }
             }
             // Its last owner may have deleted it between the two: then another may make it anew.
             if is_at(&file, &path) {
                 sign(&mut file).map_err(fail)?;
-                return Ok(Self { path, file, alone });
+                return Ok(Self { path, file, kind });
             }
         }
         Err(fail(io::Error::other("it is deleted again and again")))
@@ -84,7 +105,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        if self.alone && is_at(&self.file, &self.path) {
+        if self.kind != Kind::Shared && is_at(&self.file, &self.path) {
             let _ = fs::remove_file(&self.path);
         }
     }
@@ -154,7 +175,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(LOCK);
         let first = Lock::alone(&path).unwrap();
-        for again in [Lock::alone(&path), Lock::shared(&path)] {
+        for again in [Lock::alone(&path), Lock::shared(&path), Lock::if_possible(&path)] {
             let told = again.unwrap_err().to_string();
             assert!(told.contains(&format!("process {} on {} since 20", std::process::id(), host())), "{told}");
         }

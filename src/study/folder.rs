@@ -98,7 +98,7 @@ impl Folder {
     fn turn(&self) -> Result<Lock, OutputError> {
         let mut attempts = 0;
         loop {
-            match Lock::alone(self.at.join(TABLE_LOCK)) {
+            match Lock::if_possible(self.at.join(TABLE_LOCK)) {
                 Err(OutputError::InUse { .. }) if attempts < ATTEMPTS => attempts += 1,
                 other => return other,
             }
@@ -116,7 +116,7 @@ impl Folder {
     /// [`OutputError::InUse`] if another process makes it.
     pub fn claim(&self, run: &PlannedRun) -> Result<Lock, OutputError> {
         self.lock.check()?;
-        Lock::alone(self.place(run, "lock"))
+        Lock::if_possible(self.place(run, "lock"))
     }
 
     /// The result of a run, if there is one; `Err` with the reason if it is not whole.
