@@ -5,7 +5,7 @@
 use super::{Context, Failure};
 use checkdam::case::{Case, Integration};
 use checkdam::output::{OutputError, Table};
-use checkdam::study::{PlannedRun, Runs, Study, StudyError, TRUSTED, one, plan, run};
+use checkdam::study::{PlannedRun, Runs, Study, StudyError, TRUSTED, one, plan, work_off};
 use checkdam_verification::report::quoted;
 use std::num::NonZero;
 
@@ -66,7 +66,7 @@ impl Record {
             let (what, recorded, cost) = (planned.what.clone(), line.to_string(), cost(&planned.case, end));
             let anew = move || {
                 let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-                let mut runs = Runs::in_memory(&columns);
+                let mut runs = Runs::new(&columns);
                 runs.insert(&planned, one(&planned, &mut |_| true));
                 as_in(header, &runs.csv(std::slice::from_ref(&planned)))
             };
@@ -77,20 +77,28 @@ impl Record {
 
     fn run(&self, study: &Study, plan: &[PlannedRun], context: &mut Context) -> Result<String, Failure> {
         let folder = context.folder.join(self.name);
-        std::fs::create_dir_all(&folder)
-            .map_err(|source| checkdam::output::OutputError::Create { path: folder.clone(), source })?;
-        let mut runs = Runs::open(&folder.join("runs.csv"), &study.columns());
         let progress = &mut *context.progress;
         let start = std::time::Instant::now();
-        let finished = run(plan, &mut runs, processors(), &mut |p| {
-            // Often, so that a stop is noticed; in words, only when a run has ended.
-            if p.ended.is_none() {
-                return progress("");
-            }
-            let done = (p.finished - p.earlier).max(1) as f64;
-            let left = start.elapsed().as_secs_f64() / done * (p.total - p.finished) as f64;
-            progress(&format!("{} of {} runs, about {:.0} min left", p.finished, p.total, (left / 60.0).ceil()))
-        })?;
+        let mut notes = Vec::new();
+        let (runs, finished) = work_off(
+            plan,
+            (study, self.study),
+            &folder,
+            processors(),
+            &mut |p| {
+                // Often, so that a stop is noticed; in words, only when a run has ended.
+                if p.ended.is_none() {
+                    return progress("");
+                }
+                let done = (p.finished - p.earlier).max(1) as f64;
+                let left = start.elapsed().as_secs_f64() / done * (p.total - p.finished) as f64;
+                progress(&format!("{} of {} runs, about {:.0} min left", p.finished, p.total, (left / 60.0).ceil()))
+            },
+            &mut notes,
+        )?;
+        for note in notes {
+            progress(&note);
+        }
         if !finished.is_complete() {
             return Err(Failure::Stopped);
         }
@@ -199,7 +207,7 @@ mod tests {
     #[test]
     fn a_digit_that_is_wrong_is_seen() {
         let planned = record("").plan().expect("a study").1;
-        let mut runs = Runs::in_memory(&["young_pa"]);
+        let mut runs = Runs::new(&["young_pa"]);
         for run in &planned {
             runs.insert(run, one(run, &mut |_| true));
         }

@@ -21,6 +21,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 // What is shipped has no switch for faults on purpose.
 #[cfg(not(debug_assertions))]
@@ -78,6 +79,9 @@ enum Command {
         /// Folder for the results; must be new or empty [default: out/<name of the case file>]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Replace what an earlier run left in the folder, if it is not running any more; other files there stay as they are
+        #[arg(long)]
+        force: bool,
         /// Threads; any number gives the same results to the last bit [default: all processors]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
@@ -105,10 +109,19 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
         /// Check the study and the case of every run, and say what would run, without running it
-        #[arg(long)]
+        #[arg(long, group = "task")]
         check: bool,
+        /// Print a command for each run, one a line, for whatever makes them; the folder gets the manifest of the runs
+        #[arg(long, group = "task")]
+        list: bool,
+        /// Make one run, by its number from 1 or by its key, and keep its result in the folder; others may make others meanwhile
+        #[arg(long, value_name = "K", group = "task")]
+        run: Option<String>,
+        /// Make table and figure of the results that are there, and name those that are missing
+        #[arg(long, group = "task")]
+        collect: bool,
         /// Runs at a time; any number gives the same table [default: all processors]
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        #[arg(long, value_name = "N", conflicts_with_all = ["list", "run", "collect"], value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
     },
     /// Write a case to begin with: sand in a flume against a wall, with a comment for every field.
@@ -190,15 +203,24 @@ enum Command {
 /// Parses the command line and does what it says.
 pub fn main() -> ExitCode {
     let code = match Cli::parse().command {
-        Command::Run { case, out, threads } => run::run(&case, out, threads),
+        Command::Run { case, out, force, threads } => run::run(&case, out, threads, force),
         Command::Check { case, threads } => check::check(&case, threads),
-        Command::Study { study, out, check, threads } => study::study(&study, out, threads, check),
         Command::New { file } => new::new(&file),
         Command::Report { folder, out } => report::report(&folder, out),
         Command::Completions { shell } => help::completions(shell),
         Command::Man { command } => help::man(command.as_deref()),
         Command::Compare { a, b, tolerance, quantities, figure } => {
             compare::compare([&a, &b], tolerance, &quantities, figure.as_deref())
+        }
+        Command::Study { study, out, check, list, run, collect, threads } => {
+            let task = match (run, check, list, collect) {
+                (Some(which), ..) => study::Task::One(which),
+                (None, true, ..) => study::Task::Check,
+                (None, _, true, _) => study::Task::List,
+                (None, _, _, true) => study::Task::Collect,
+                _ => study::Task::All(threads),
+            };
+            study::study(&study, out, &task)
         }
         Command::Verify { rungs, out } => verify::verify(&rungs, &out),
         Command::Validate { names, studies, out } => validate::validate(&names, studies, &out),
@@ -232,15 +254,22 @@ fn load(path: &std::path::Path) -> Result<checkdam::case::Case, ExitCode> {
     }
 }
 
-/// A flag that Ctrl-C sets, with these words; a second Ctrl-C ends the process at once.
+/// Signals that come closer together are one: `timeout -s INT` sends two within milliseconds, to the process and to its group.
+const TOGETHER: Duration = Duration::from_millis(500);
+
+/// A flag that Ctrl-C sets, with these words; a second Ctrl-C, half a second later or more, ends the process at once.
 fn stop_on_ctrl_c(words: &'static str) -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
-    let handler = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::SeqCst) {
-            std::process::exit(130);
+    let mut first = None;
+    let handler = ctrlc::set_handler(move || match first {
+        None => {
+            first = Some(Instant::now());
+            flag.store(true, Ordering::SeqCst);
+            tell!("\n{words}");
         }
-        tell!("\n{words}");
+        Some(first) if first.elapsed() < TOGETHER => {}
+        Some(_) => std::process::exit(130),
     });
     if let Err(error) = handler {
         tell!("warning: Ctrl-C will not end this in order ({error})");

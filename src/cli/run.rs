@@ -2,22 +2,25 @@
 
 use super::progress::Display;
 use super::{BAD_INPUT, ENDED_EARLY, NOT_TRUSTED, load, say, stop_on_ctrl_c, tell, use_threads};
-use checkdam::run::{self, Summary, files};
+use checkdam::run::{self, Progress, Summary, files};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode {
+pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>, force: bool) -> ExitCode {
     let case = match load(path) {
         Ok(case) => case,
         Err(code) => return code,
     };
     let directory = out.unwrap_or_else(|| Path::new("out").join(path.file_stem().unwrap_or_default()));
-    if let Err(message) = files::prepare_directory(&directory) {
-        tell!("error: {message}");
-        return ExitCode::from(BAD_INPUT);
-    }
+    let claim = match files::Claim::new(&directory, force) {
+        Ok(claim) => claim,
+        Err(message) => {
+            tell!("error: {message}");
+            return ExitCode::from(BAD_INPUT);
+        }
+    };
     use_threads(threads);
 
     let stop = stop_on_ctrl_c("stopping: writing what was computed (Ctrl-C again to quit at once)");
@@ -25,12 +28,13 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
     let start = Instant::now();
     let mut steps = (0u64, 0usize);
     let mut stopped = false;
-    let result = run::run(&case, Some(&directory), &mut |p| {
+    let mut progress = |p: &Progress| {
         steps = (p.steps, p.particles);
         display.show(p);
         stopped = stop.load(Ordering::SeqCst);
         !stopped
-    });
+    };
+    let result = run::run_claimed(&case, claim, &mut progress);
     display.clear();
     let seconds = start.elapsed().as_secs_f64();
     match result {
@@ -50,7 +54,9 @@ pub fn run(path: &Path, out: Option<PathBuf>, threads: Option<u16>) -> ExitCode 
         }
         Err(error) => {
             tell!("error: {error}");
-            tell!("what was computed is in {}", directory.display());
+            if directory.is_dir() {
+                tell!("what was computed is in {}", directory.display());
+            }
             ExitCode::from(ENDED_EARLY)
         }
     }

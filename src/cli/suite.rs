@@ -2,6 +2,7 @@
 
 use super::console::{say, tell};
 use super::{BAD_INPUT, CHECK_FAILED, ENDED_EARLY};
+use checkdam::output::{LOCK, Lock};
 use checkdam::plot::PlotError;
 use checkdam_verification::Outcome;
 use std::path::Path;
@@ -51,6 +52,13 @@ impl<T> Suite<T> {
             tell!("error: cannot create {}: {error}; choose another --out", out.display());
             return ExitCode::from(BAD_INPUT);
         }
+        let _lock = match Lock::alone(out.join(LOCK)) {
+            Ok(lock) => lock,
+            Err(error) => {
+                tell!("error: {error}");
+                return ExitCode::from(BAD_INPUT);
+            }
+        };
         let mut failed = Vec::new();
         for (k, item) in chosen.iter().enumerate() {
             let [name, title] = head(item);

@@ -92,8 +92,16 @@ impl Drop for AtomicFile {
 /// # Errors
 /// [`OutputError::Create`] or [`OutputError::Write`]; an earlier version of the file is then unchanged.
 pub fn write_text(path: impl AsRef<Path>, text: &str) -> Result<(), OutputError> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// As [`write_text`], for what may be no text.
+///
+/// # Errors
+/// As [`write_text`].
+pub fn write_bytes(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     let mut file = AtomicFile::create(path)?;
-    file.write_all(text.as_bytes()).map_err(|source| file.failure(source))?;
+    file.write_all(bytes).map_err(|source| file.failure(source))?;
     file.commit()
 }
 

@@ -24,6 +24,28 @@ pub enum OutputError {
         /// What the operating system said.
         source: io::Error,
     },
+    /// Another process works there.
+    #[error("{} is in use by {holder}; wait until that ends, or choose another folder with --out", folder(path).display())]
+    InUse {
+        /// The lock file.
+        path: PathBuf,
+        /// Who has it.
+        holder: String,
+    },
+    /// A folder is not empty, and not one of a study.
+    #[error(
+        "{path} is not empty and holds no study; nothing of others is mixed with or overwritten: choose another folder with --out"
+    )]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A folder is no longer where it was.
+    #[error("{path} was deleted or moved while results were written into it; nothing is written any more")]
+    Gone {
+        /// The folder.
+        path: PathBuf,
+    },
     /// Adding rows to a table failed part of the way.
     #[error(
         "cannot add to {path}: {source}; {rows} complete rows are in the file and readable, {pending} more are held back; {}",
@@ -99,6 +121,11 @@ pub enum OutputError {
         /// What the cell holds.
         text: String,
     },
+}
+
+/// The folder that a lock file locks.
+fn folder(lock: &std::path::Path) -> &std::path::Path {
+    lock.parent().unwrap_or(lock)
 }
 
 /// What a user can do about an input/output failure.

@@ -4,13 +4,15 @@
 
 mod atomic;
 mod error;
+mod lock;
 mod number;
 mod pvd;
 mod table;
 mod vtk;
 
-pub use atomic::{AtomicFile, write_text};
+pub use atomic::{AtomicFile, write_bytes, write_text};
 pub use error::OutputError;
+pub use lock::{LOCK, Lock};
 pub use pvd::PvdWriter;
 pub use table::{Table, TableWriter};
 pub use vtk::{Field, Polyline, Values, write_points, write_polylines};

@@ -6,6 +6,8 @@
 
 use super::ProgressFn;
 use super::barrier_tables::BarrierTables;
+use super::claim::SUMMARY;
+pub use super::claim::{Claim, prepare_directory};
 use super::columns;
 use super::experiment::Experiment;
 use super::figures::draw_figures;
@@ -19,43 +21,12 @@ use super::table::{Names, OpenTable, flush, optional};
 use crate::case::{Case, file_name};
 use crate::gauge::structure::ProfilePoint;
 use crate::gauge::{FieldCell, StationSample, StructureSample};
-use crate::output::{self, Field, OutputError, PvdWriter, Values};
+use crate::output::{self, Field, Lock, OutputError, PvdWriter, Values};
 use crate::seeded::{self, Seed};
 use crate::simulation::{ContactPoint, Simulation};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// Makes sure that `directory` exists, is empty and can be written.
-///
-/// # Errors
-/// In words: what is wrong and what to do.
-pub fn prepare_directory(directory: &Path) -> Result<(), String> {
-    let shown = directory.display();
-    if directory.exists() && !directory.is_dir() {
-        return Err(format!("{shown} is a file; --out names a folder"));
-    }
-    if directory.is_dir() {
-        let mut entries = fs::read_dir(directory).map_err(|e| format!("cannot look into {shown}: {e}"))?;
-        if entries.next().is_some() {
-            return Err(format!(
-                "{shown} exists and is not empty; results are never mixed or overwritten: choose another folder with --out, \
-                 or move or delete this one"
-            ));
-        }
-    }
-    let existed = directory.is_dir();
-    fs::create_dir_all(directory)
-        .map_err(|e| format!("cannot create {shown}: {e}; choose another folder with --out"))?;
-    let probe = directory.join(".checkdam-probe");
-    let tried = fs::write(&probe, b"checkdam");
-    let removed = fs::remove_file(&probe);
-    tried.and(removed).map_err(|e| {
-        if !existed {
-            let _ = fs::remove_dir(directory);
-        }
-        format!("cannot write into {shown}: {e}; choose another folder with --out")
-    })
-}
+use std::sync::Arc;
 
 /// Runs a case into an empty folder; returns what was recorded.
 ///
@@ -66,19 +37,39 @@ pub fn run_into(
     directory: &Path,
     progress: &mut ProgressFn,
 ) -> Result<(Experiment, Records, Summary), RunError> {
+    run_claimed(case, Claim::of(directory)?, progress)
+}
+
+/// Runs a case into a folder that this process has claimed; what an earlier run left there is replaced.
+///
+/// # Errors
+/// What stopped the run; the folder then holds what was computed.
+pub fn run_claimed(
+    case: &Case,
+    claim: Claim,
+    progress: &mut ProgressFn,
+) -> Result<(Experiment, Records, Summary), RunError> {
+    let directory = claim.directory();
     let mut experiment = Experiment::new(case);
-    let mut folder = Folder::create(directory, &experiment)?;
+    // From here on a reader is told that nothing is at its end, whatever becomes of this process.
+    output::write_text(directory.join(SUMMARY), &Summary::running(case))?;
+    claim.clear()?;
+    let mut folder = Folder::create(directory, &experiment, claim.lock())?;
     let end = experiment.run(&mut folder, progress);
     let closed = folder.close().map_err(RunError::from);
     let end = end.and_then(|end| closed.map(|()| end));
     let records = folder.into_records();
+    // A folder that was deleted may have been made anew by another run.
+    if let Err(gone) = claim.lock().check() {
+        return Err(end.err().unwrap_or_else(|| gone.into()));
+    }
     let summary = match &end {
         Ok(end) => Summary::new(case, &experiment, &records, *end),
         Err(error) => Summary::failed(case, &experiment, &records, &error.to_string()),
     };
     let mut barriers = experiment.barriers().iter().enumerate();
     let mut peaks = || barriers.try_for_each(|(k, b)| write_peak_profile(directory, &suffix(b, k), b.peak_profile()));
-    let written = output::write_text(directory.join("summary.toml"), &summary.to_toml()).and_then(|()| peaks());
+    let written = output::write_text(directory.join(SUMMARY), &summary.to_toml()).and_then(|()| peaks());
     let drawn = draw_figures(case, directory, &experiment, &summary);
     // The first thing that went wrong is reported: what follows from it would only hide it.
     end?;
@@ -101,6 +92,7 @@ fn write_peak_profile(directory: &Path, suffix: &str, peak: &PeakProfile) -> Res
 /// The open tables of a run.
 struct Folder {
     directory: PathBuf,
+    lock: Arc<Lock>,
     /// History, and what is read at the first barrier.
     first: BarrierTables,
     /// What is read at the other barriers.
@@ -119,7 +111,7 @@ struct Folder {
 }
 
 impl Folder {
-    fn create(directory: &Path, experiment: &Experiment) -> Result<Self, OutputError> {
+    fn create(directory: &Path, experiment: &Experiment, lock: &Arc<Lock>) -> Result<Self, OutputError> {
         let sim = experiment.simulation();
         let gauges = experiment.gauges();
         let boundaries: Vec<String> = sim.boundaries().iter().map(|b| file_name(&b.name)).collect();
@@ -147,6 +139,7 @@ impl Folder {
         let windows = experiment.windows().iter().map(|w| named(&columns::WINDOW, "window", &w.name));
         Ok(Self {
             directory: directory.to_path_buf(),
+            lock: lock.clone(),
             first: BarrierTables::create(directory, 0, barriers.first(), fields)?,
             further: further
                 .map(|(k, b)| BarrierTables::create(directory, k, Some(b), fields))
@@ -224,7 +217,8 @@ impl Recorder for Folder {
             return Ok(());
         }
         self.momentum.row(row)?;
-        // Once per ledger row everything is on disk.
+        // Once per ledger row everything is on disk, and the disk is where it was.
+        self.lock.check()?;
         self.close()
     }
 

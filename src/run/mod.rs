@@ -7,6 +7,7 @@
 mod balances;
 mod barrier;
 mod barrier_tables;
+mod claim;
 mod clock;
 mod columns;
 mod deposit;
@@ -55,6 +56,14 @@ pub fn run(case: &Case, out: Option<&Path>, progress: &mut ProgressFn) -> Result
         None => run_in_memory(case, progress).map(|(_, _, summary)| summary),
         Some(directory) => files::run_into(case, directory, progress).map(|(_, _, summary)| summary),
     })
+}
+
+/// Runs a case to its end, into a folder that this process has claimed.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_claimed(case: &Case, claim: files::Claim, progress: &mut ProgressFn) -> Result<Summary, RunError> {
+    rayon::scope(|_| files::run_claimed(case, claim, progress).map(|(_, _, summary)| summary))
 }
 
 /// Runs a case without writing anything and returns what was recorded.

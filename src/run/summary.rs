@@ -22,7 +22,7 @@ pub struct Summary {
     pub trusted: bool,
     /// Why not, with numbers; empty if they are.
     pub reasons: Vec<String>,
-    /// How the run ended.
+    /// How the run ended; `running` until then, also in what a run leaves that was killed.
     pub status: String,
     /// Version of checkdam.
     pub checkdam_version: String,
@@ -136,6 +136,13 @@ impl Summary {
         }
     }
 
+    /// What stands in `summary.toml` until the run ends: its inputs, and no number.
+    pub fn running(case: &Case) -> String {
+        let reasons = ["the run is not at its end: it goes on, or was killed"];
+        let version = env!("CARGO_PKG_VERSION");
+        written(&Running { trusted: false, reasons, status: RUNNING, checkdam_version: version, case }, RUNNING)
+    }
+
     /// The front just before it reached the first barrier.
     pub fn arriving_front(&self) -> Option<&FrontPassage> {
         self.front.get(self.arriving?)
@@ -143,13 +150,30 @@ impl Summary {
 
     /// As a TOML document.
     pub fn to_toml(&self) -> String {
-        // Every type here maps to TOML; a failure would be a programming error, shown in place.
-        let text = toml::to_string(self)
-            .unwrap_or_else(|e| format!("status = {:?}\n# the summary could not be written: {e}\n", self.status));
-        match seeded::active() {
-            Some(fault) => format!("# WRONG ON PURPOSE ({}): no number here is to be trusted\n{text}", fault.name),
-            None => text,
-        }
+        written(self, &self.status)
+    }
+}
+
+/// What `status` says of a run that is not at its end.
+pub const RUNNING: &str = "running";
+
+/// The keys of a summary that are known from the start.
+#[derive(Serialize)]
+struct Running<'a> {
+    trusted: bool,
+    reasons: [&'static str; 1],
+    status: &'static str,
+    checkdam_version: &'static str,
+    case: &'a Case,
+}
+
+fn written<T: Serialize>(summary: &T, status: &str) -> String {
+    // Every type here maps to TOML; a failure would be a programming error, shown in place.
+    let text = toml::to_string(summary)
+        .unwrap_or_else(|e| format!("status = {status:?}\n# the summary could not be written: {e}\n"));
+    match seeded::active() {
+        Some(fault) => format!("# WRONG ON PURPOSE ({}): no number here is to be trusted\n{text}", fault.name),
+        None => text,
     }
 }
 

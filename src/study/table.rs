@@ -1,13 +1,10 @@
 //! The tidy table of a study: a row per run.
 
-use super::plan::{PlannedRun, fingerprint};
+use super::plan::PlannedRun;
 use super::quantities::QUANTITIES;
 use crate::check::significant;
-use crate::output::{OutputError, write_text};
 use crate::seeded::{self, Seed};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
 
 /// Significant digits of the quantities.
 const DIGITS: usize = 9;
@@ -52,51 +49,17 @@ impl Row {
     }
 }
 
-/// Finished runs by key; they are kept on disk as the table of the study.
-#[derive(Debug)]
+/// Finished runs by key, and the table that they make.
+#[derive(Debug, Clone)]
 pub struct Runs {
-    /// Where they are kept; nowhere if in memory only.
-    path: Option<PathBuf>,
     columns: Vec<String>,
     rows: BTreeMap<String, Row>,
-    /// What stood there, until the first save.
-    before: String,
-    /// Where what stood there was put, if the table lost rows of it.
-    aside: Option<PathBuf>,
 }
 
 impl Runs {
-    /// None yet, and none kept on disk.
-    pub fn in_memory(columns: &[&str]) -> Self {
-        let columns = columns.iter().map(ToString::to_string).collect();
-        Self { path: None, columns, rows: BTreeMap::new(), before: String::new(), aside: None }
-    }
-
-    /// What an earlier run of a study with these columns left at `path`; nothing if there is no such table, or if another
-    /// build of the program made it. Runs that failed are forgotten: they are tried again. A table of which rows would be lost is put
-    /// beside the new one ([`Self::aside`]).
-    pub fn open(path: &Path, columns: &[&str]) -> Self {
-        let before = std::fs::read_to_string(path).unwrap_or_default();
-        let mut runs = Self { path: Some(path.to_path_buf()), before, ..Self::in_memory(columns) };
-        if !std::fs::read_to_string(program_file(path)).is_ok_and(|text| text == program()) {
-            return runs;
-        }
-        let text = runs.before.clone();
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let Ok(header) = reader.headers().cloned() else { return runs };
-        if header.iter().take(FIRST.len() + runs.columns.len() + MIDDLE.len()).eq(runs.header(&[]).iter()) {
-            let at = FIRST.len() + runs.columns.len();
-            let places: Vec<_> = QUANTITIES.iter().map(|q| header.iter().position(|h| h == q.name)).collect();
-            for record in reader.records().filter_map(Result::ok) {
-                let value = |place: &Option<usize>| place.and_then(|k| record.get(k)).unwrap_or_default().to_string();
-                let values = places.iter().map(value).collect();
-                let row = Row { ended: record[at + 1].to_string(), trusted: record[at + 2].to_string(), values };
-                if row.is_complete() {
-                    runs.rows.insert(record[at].to_string(), row);
-                }
-            }
-        }
-        runs
+    /// None yet, of a study with these columns.
+    pub fn new(columns: &[&str]) -> Self {
+        Self { columns: columns.iter().map(ToString::to_string).collect(), rows: BTreeMap::new() }
     }
 
     /// Columns of the table with those quantities that are `used`.
@@ -116,15 +79,19 @@ impl Runs {
         self.rows.insert(run.key.clone(), row);
     }
 
+    /// Runs that failed are as if they had not been tried: they are tried again.
+    pub fn forget_failed(&mut self) {
+        self.rows.retain(|_, row| row.is_complete());
+    }
+
     /// The table of the runs that are finished, in the order of the plan.
     pub fn csv(&self, plan: &[PlannedRun]) -> String {
-        let mut writer = csv::Writer::from_writer(Vec::new());
         // Quantities that no run has, as those of a bending barrier where there is none, are left out.
         let rows: Vec<&Row> = plan.iter().filter_map(|run| self.get(run)).collect();
         let used: Vec<bool> = (0..QUANTITIES.len())
             .map(|k| rows.iter().any(|r| r.values.get(k).is_some_and(|v| !v.is_empty())))
             .collect();
-        let written = (|| -> csv::Result<()> {
+        written(|writer| {
             writer.write_record(self.header(&used))?;
             for run in plan {
                 let Some(row) = self.get(run) else { continue };
@@ -136,62 +103,62 @@ impl Runs {
                 writer.write_record(first.into_iter().chain(values).chain(middle).chain(measured))?;
             }
             Ok(())
-        })();
-        // Writing to memory fails only if rows differ in length, which the types above exclude.
-        debug_assert!(written.is_ok(), "{written:?}");
-        writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+        })
     }
 
-    /// Puts the table in its place, whole. What stood there is kept beside it if it has finished runs that the new one has not.
-    ///
-    /// # Errors
-    /// The table cannot be written; what stood there is unchanged.
-    pub fn save(&mut self, plan: &[PlannedRun]) -> Result<(), OutputError> {
-        let Some(path) = &self.path else { return Ok(()) };
-        let kept: BTreeSet<&str> = plan.iter().filter(|r| self.get(r).is_some()).map(|r| r.key.as_str()).collect();
-        if finished(&self.before).iter().any(|key| !kept.contains(key.as_str())) {
-            let aside = free_place(path);
-            write_text(&aside, &self.before)?;
-            self.aside = Some(aside);
-        }
-        self.before = String::new();
-        write_text(program_file(path), program())?;
-        write_text(path, &self.csv(plan))
-    }
-
-    /// Where the table was put that stood in the place of this one, if this one has not all of its runs.
-    pub fn aside(&self) -> Option<&Path> {
-        self.aside.as_deref()
+    /// The table of all runs that a plan asks for: number from 1, key, what varies, and the `build` that is to run them.
+    pub fn manifest(&self, plan: &[PlannedRun], build: &str) -> String {
+        written(|writer| {
+            let columns = self.columns.iter().map(String::as_str);
+            writer.write_record(["number", "key"].into_iter().chain(FIRST).chain(columns).chain(["build"]))?;
+            for run in plan {
+                let (number, replicate) = ((run.number + 1).to_string(), run.replicate.to_string());
+                let first =
+                    [&number, &run.key, &run.case_name, &run.factor, &run.label, &replicate].map(String::as_str);
+                writer.write_record(first.into_iter().chain(run.values.iter().map(String::as_str)).chain([build]))?;
+            }
+            Ok(())
+        })
     }
 }
 
-/// Keys of the runs in a table that did not fail.
-fn finished(table: &str) -> Vec<String> {
-    let mut reader = csv::Reader::from_reader(table.as_bytes());
-    let header = reader.headers().cloned().unwrap_or_default();
-    let [key, ended] = ["key", "ended"].map(|name| header.iter().position(|h| h == name));
-    let (Some(key), Some(ended)) = (key, ended) else { return Vec::new() };
-    let done = reader.records().filter_map(Result::ok).filter(|r| r.get(ended).is_some_and(|e| !e.starts_with(FAILED)));
-    done.filter_map(|r| r.get(key).map(str::to_string)).collect()
+fn written(write: impl FnOnce(&mut csv::Writer<Vec<u8>>) -> csv::Result<()>) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let written = write(&mut writer);
+    // Writing to memory fails only if rows differ in length, which the types above exclude.
+    debug_assert!(written.is_ok(), "{written:?}");
+    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
 }
 
-/// A name beside `path` that no file has: `runs_before_1.csv`.
-fn free_place(path: &Path) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let place = |k: u32| path.with_file_name(format!("{stem}_before_{k}.csv"));
-    (1..).map(place).find(|p| !p.exists()).unwrap_or_else(|| place(0))
+/// Whether a table had something that the one in its place has not: a row, or a number in it. Runs that failed do not count; what is no
+/// table of a study does.
+pub fn has_lost(before: &[u8], now: &str) -> bool {
+    if before.is_empty() {
+        return false;
+    }
+    match (cells(before), cells(now.as_bytes())) {
+        (Some(before), Some(now)) => !before.iter().all(|row| is_failed(row) || now.contains(row)),
+        _ => true,
+    }
 }
 
-/// Says which build made the table at `path`.
-fn program_file(path: &Path) -> PathBuf {
-    path.with_extension("program")
+/// A row as cells that are not empty, by their columns.
+type Cells = BTreeMap<String, String>;
+
+fn is_failed(row: &Cells) -> bool {
+    row.get("ended").is_some_and(|ended| ended.starts_with(FAILED))
 }
 
-/// Fingerprint of this program: what another build computed may be something else.
-fn program() -> &'static str {
-    static PROGRAM: OnceLock<String> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        let bytes = std::env::current_exe().and_then(std::fs::read).unwrap_or_default();
-        format!("{:016x}\n", fingerprint(&bytes))
-    })
+/// The rows of a table of a study; none if it is something else.
+fn cells(table: &[u8]) -> Option<BTreeSet<Cells>> {
+    let mut reader = csv::Reader::from_reader(table);
+    let header = reader.headers().ok()?.clone();
+    if !FIRST.iter().chain(&MIDDLE).all(|name| header.iter().any(|h| h == *name)) {
+        return None;
+    }
+    let row = |record: csv::StringRecord| {
+        let named = header.iter().zip(&record).filter(|(_, cell)| !cell.is_empty());
+        named.map(|(name, cell)| (name.to_string(), cell.to_string())).collect()
+    };
+    reader.records().map(|record| record.ok().map(row)).collect()
 }

@@ -1,6 +1,5 @@
 use super::quantities::QUANTITIES;
 use super::*;
-use std::num::NonZero;
 
 /// A block of rubber that falls on a floor.
 pub(super) const CASE: &str = r#"
@@ -35,7 +34,7 @@ end_time_s = 0.3
 barrier = "floor"
 "#;
 
-const STUDY: &str = r#"
+pub(super) const STUDY: &str = r#"
 title = "stiffness and friction of the floor"
 cases = ["drop.toml"]
 [base.set]
@@ -50,7 +49,7 @@ label = "rough"
 set = { "boundaries.floor.contact" = "rough" }
 "#;
 
-fn planned(study: &str) -> Result<(Study, Vec<PlannedRun>), StudyError> {
+pub(super) fn planned(study: &str) -> Result<(Study, Vec<PlannedRun>), StudyError> {
     let study = Study::parse(study, "study.toml")?;
     let runs = plan(&study, "study.toml", &|_| Ok(CASE.to_string()))?;
     Ok((study, runs))
@@ -86,20 +85,13 @@ fn a_level_stands_for_several_changes() {
 #[test]
 fn quantities_that_no_run_has_are_left_out_of_the_table() {
     let (study, runs) = planned(STUDY).expect("a study");
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("runs.csv");
-    let mut table = Runs::open(&path, &study.columns());
+    let mut table = Runs::new(&study.columns());
     let mut numbers = vec![f64::NAN; QUANTITIES.len()];
     (numbers[2], numbers[5]) = (1.5, -2.0);
     table.insert(&runs[0], Row::new("at rest", true, &numbers));
-    table.save(&runs).expect("a table");
-    let text = std::fs::read_to_string(&path).expect("a table");
+    let text = table.csv(&runs);
     let header = format!("key,ended,trusted,{},{}", QUANTITIES[2].name, QUANTITIES[5].name);
     assert!(text.lines().next().is_some_and(|l| l.ends_with(&header)), "{text}");
-    // And it is read back as it was.
-    let again = Runs::open(&path, &study.columns());
-    assert_eq!(again.get(&runs[0]), table.get(&runs[0]));
-    assert_eq!(again.csv(&runs), text);
 }
 
 #[test]
@@ -187,55 +179,6 @@ fn what_is_wrong_is_named() {
         let error = error.to_string();
         assert!(error.contains(words), "{to}: {error}");
     }
-}
-
-#[test]
-fn a_study_goes_on_where_it_stopped() {
-    let (study, plan) = planned(STUDY).expect("a study");
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("runs.csv");
-    let one = NonZero::<usize>::MIN;
-    // Stopped after the first run has ended.
-    let mut runs = Runs::open(&path, &study.columns());
-    let first = run(&plan, &mut runs, one, &mut |p| p.ended.is_none()).expect("a table");
-    assert_eq!((first.rows, first.total, first.is_complete()), (2, 4, false), "the base and the axis' first value");
-    // Stopped in the middle of a run: nothing of it is kept.
-    let mut runs = Runs::open(&path, &study.columns());
-    assert_eq!(run(&plan, &mut runs, one, &mut |_| false).expect("a table").rows, 2);
-    let mut seen = Vec::new();
-    let mut runs = Runs::open(&path, &study.columns());
-    let last = run(&plan, &mut runs, NonZero::new(2).expect("two"), &mut |p| {
-        if p.ended.is_some() {
-            seen.push((p.run.what.clone(), p.earlier));
-        }
-        true
-    });
-    assert!(last.expect("a table").is_complete());
-    seen.sort();
-    assert_eq!(seen, [("drop, axis, young_pa 200000".to_string(), 2), ("drop, floor, rough".to_string(), 2)]);
-    // As if it had never been interrupted.
-    let at_once = folder.path().join("at_once.csv");
-    let mut runs = Runs::open(&at_once, &study.columns());
-    run(&plan, &mut runs, one, &mut |_| true).expect("a table");
-    let [a, b] = [&path, &at_once].map(|p| std::fs::read_to_string(p).expect("a table"));
-    assert_eq!(a, b);
-    assert_eq!(a.lines().count(), 5);
-    // What another build has left is not taken over.
-    std::fs::write(path.with_extension("program"), "another").expect("a file");
-    assert!(plan.iter().all(|r| Runs::open(&path, &study.columns()).get(r).is_none()));
-    // It is not lost either; nor is a run that the study has no more.
-    let mut runs = Runs::open(&path, &study.columns());
-    runs.save(&plan).expect("a table");
-    let aside = runs.aside().expect("a table of another build").to_path_buf();
-    assert_eq!(aside, folder.path().join("runs_before_1.csv"));
-    assert_eq!(std::fs::read_to_string(&aside).expect("a table"), a);
-    let mut runs = Runs::open(&at_once, &study.columns());
-    runs.save(&plan).expect("a table");
-    assert_eq!(runs.aside(), None, "nothing was lost");
-    let mut runs = Runs::open(&at_once, &study.columns());
-    runs.save(&plan[2..]).expect("a table");
-    let aside = runs.aside().expect("a run that the study has no more").to_path_buf();
-    assert_eq!(std::fs::read_to_string(aside).expect("a table"), b);
 }
 
 /// Refusals of studies have the form of those of cases.

@@ -199,9 +199,9 @@ fn runs(context: &mut Context) -> Result<Vec<Run>, Failure> {
     for run in &mut plan {
         make_faulty(&mut run.case, &context.fault);
     }
-    let mut runs = Runs::in_memory(&study.columns());
+    let mut runs = Runs::new(&study.columns());
     let progress = &mut *context.progress;
-    let finished = checkdam::study::run(&plan, &mut runs, processors(), &mut |p| {
+    let finished = checkdam::study::run(&plan, &mut runs, None, processors(), &mut |p| {
         progress(&if p.ended.is_some() { format!("{} of {} runs", p.finished, p.total) } else { String::new() })
     })?;
     if !finished.is_complete() {

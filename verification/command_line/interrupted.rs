@@ -54,6 +54,22 @@ fn a_run_that_is_interrupted_keeps_what_it_computed() {
     }
 }
 
+/// `timeout -s INT` sends two signals within milliseconds, to the process and to its group.
+#[test]
+fn two_signals_close_together_are_one() {
+    let lab = Lab::new(&long());
+    let child = start(&lab, &RUN);
+    wait_until("the first sample", || lab.path("results/history.csv").exists());
+    let id = child.id();
+    let script = format!("kill -INT {id}; sleep 0.003; kill -INT {id}");
+    let sent = Command::new("sh").args(["-c", &script]).status().unwrap();
+    assert!(sent.success());
+    let outcome = Outcome::of(&child.wait_with_output().unwrap());
+    assert_eq!(outcome.code, Some(3), "{outcome:?}");
+    assert_eq!(outcome.err.matches("stopping").count(), 1, "{}", outcome.err);
+    assert!(lab.status("results").starts_with("stopped by the user"));
+}
+
 #[test]
 fn a_run_that_is_interrupted_before_the_release_ends_in_order() {
     let settle = "[stages.settle]\ndamping_per_s = 1\nresidual = 1.0e-12\nmax_time_s = 400\n\n[stages.run]";

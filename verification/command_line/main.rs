@@ -4,6 +4,7 @@ mod begin;
 mod browser;
 mod compare;
 mod documents;
+mod faults;
 mod interrupted;
 mod lab;
 mod report;

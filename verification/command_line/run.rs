@@ -120,8 +120,33 @@ fn a_run_leaves_everything_it_promises() {
     assert!(lab.status("out/case").starts_with("completed"));
 
     // A second run does not touch the results of the first.
-    assert_eq!(lab.run(&["run", "case.toml"]).code, Some(2));
+    let again = lab.run(&["run", "case.toml"]);
+    assert!(again.code == Some(2) && again.err.contains("replace that run with --force"), "{again:?}");
     assert!(folder == lab.contents("out/case"));
+}
+
+/// Of the earlier run, which had a frame and a table more, nothing is left; what is not of it stays.
+#[test]
+fn an_earlier_run_is_replaced_if_that_is_asked_for() {
+    let lab = Lab::new(TINY);
+    assert_eq!(lab.run(&["run", "case.toml", "--out", "results"]).code, Some(4));
+    fs::write(lab.path("results/notes.txt"), "mine").unwrap();
+    let other = changed("vtk_interval_s = 0.05", "vtk_interval_s = 0.1").replace("stations_m = [0.1, 0.2]\n", "");
+    fs::write(lab.path("case.toml"), other).unwrap();
+    assert_eq!(lab.run(&["run", "case.toml", "--out", "fresh"]).code, Some(4));
+    let outcome = lab.run(&["run", "case.toml", "--out", "results", "--force"]);
+    assert_eq!(outcome.code, Some(4), "{outcome:?}");
+    let mut replaced = lab.contents("results");
+    assert_eq!(replaced.remove("notes.txt").as_deref(), Some(&b"mine"[..]));
+    assert!(replaced == lab.contents("fresh"), "{:?}", replaced.keys());
+    // Nothing else is replaced, nor is anything if the case is at fault.
+    fs::create_dir(lab.path("mine")).unwrap();
+    fs::write(lab.path("mine/summary.toml"), "title = \"mine\"").unwrap();
+    let outcome = lab.run(&["run", "case.toml", "--out", "mine", "--force"]);
+    assert!(outcome.code == Some(2) && outcome.err.contains("holds no run of checkdam"), "{outcome:?}");
+    fs::write(lab.path("case.toml"), "title = 1").unwrap();
+    assert_eq!(lab.run(&["run", "case.toml", "--out", "fresh", "--force"]).code, Some(2));
+    assert!(replaced == lab.contents("fresh") && lab.contents("mine").len() == 1);
 }
 
 #[test]

@@ -111,3 +111,80 @@ fn a_study_that_is_interrupted_goes_on() {
     // Only the runs that were not there yet are told.
     assert!(outcome.err.contains("4 of 4 runs") && !outcome.err.contains("2 of 4 runs"), "{}", outcome.err);
 }
+
+/// One command a line, each makes a run; whoever gives them, in whatever order, the table is that of the local pool.
+#[cfg(unix)]
+#[test]
+fn runs_that_are_made_one_by_one_make_the_same_table() {
+    use std::process::Command;
+    let lab = lab(STUDY);
+    assert_eq!(lab.run(&["study", "friction.toml", "--out", "pool"]).code, Some(0));
+    let task = |task: &[&str]| lab.run(&[&["study", "friction.toml", "--out", "each one"], task].concat());
+    let list = task(&["--list"]);
+    assert_eq!(list.code, Some(0), "{list:?}");
+    let commands: Vec<&str> = list.out.lines().collect();
+    assert!(
+        commands.len() == 4 && commands[0].contains(" study friction.toml --out 'each one' --run "),
+        "{}",
+        list.out
+    );
+    let status = || lab.read("each one/status.toml").lines().next().unwrap().to_string();
+    assert_eq!(status(), "status = \"listed\"");
+    let manifest = lab.read("each one/manifest.csv");
+    let keys: Vec<&str> = manifest.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    assert!(commands.iter().zip(&keys).all(|(command, key)| command.ends_with(key)), "{manifest}");
+    // Nothing is there yet, and that is said.
+    let none = task(&["--collect"]);
+    assert!(none.code == Some(3) && none.out.contains("0 of 4 runs") && none.out.contains("INCOMPLETE"), "{none:?}");
+    let shell = |command: &str| {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", command]).current_dir(lab.directory.path());
+        shell
+    };
+    // The last two at the same time, and one of them twice.
+    let both = [commands[3], commands[2], commands[3]].map(|command| shell(command).spawn().unwrap());
+    both.into_iter().for_each(|mut child| assert_eq!(child.wait().unwrap().code(), Some(0)));
+    let part = task(&["--collect"]);
+    assert!(part.code == Some(3) && part.out.contains("2 of 4 runs are in each one/runs.csv"), "{part:?}");
+    for (number, key) in (1..3).zip(&keys) {
+        assert!(part.out.contains(&format!("  {number} (--run {key}): case, axis, base")), "{}", part.out);
+    }
+    assert_eq!(status(), "status = \"incomplete\"");
+    assert!(shell(commands[0]).status().unwrap().success());
+    // By its number; and again, when nothing is left to do.
+    for _ in 0..2 {
+        let second = task(&["--run", "2"]);
+        assert!(second.code == Some(0) && second.out.contains("run 2 of 4, case, axis"), "{second:?}");
+    }
+    let all = task(&["--collect"]);
+    assert_eq!(all.code, Some(0), "{all:?}");
+    assert_eq!(status(), "status = \"complete\"");
+    for name in ["runs.csv", "manifest.csv", "status.toml", "study.toml", "figure.svg"] {
+        assert!(lab.read(&format!("each one/{name}")) == lab.read(&format!("pool/{name}")), "{name}");
+    }
+    // The pool finds the same results.
+    let pool = lab.run(&["study", "friction.toml", "--out", "each one"]);
+    assert!(pool.code == Some(0) && !pool.err.contains("of 4 runs, about"), "{pool:?}");
+}
+
+#[test]
+fn a_run_that_the_study_has_not_is_refused() {
+    let lab = lab(STUDY);
+    let one = |which: &str| lab.run(&["study", "friction.toml", "--run", which]);
+    for which in ["0", "5", "-1", "first", "0123456789abcdef"] {
+        let outcome = one(which);
+        assert_eq!(outcome.code, Some(2), "{which}: {outcome:?}");
+    }
+    assert!(one("5").err.contains("there are runs 1 to 4"), "{}", one("5").err);
+    assert!(one("0123456789abcdef").err.contains("no run of this key"));
+    // A number stands for what it stood for when the runs were listed.
+    assert_eq!(lab.run(&["study", "friction.toml", "--list"]).code, Some(0));
+    fs::write(lab.path("friction.toml"), STUDY.replace("[0.2, 0.4]", "[0.3, 0.4]")).unwrap();
+    let changed = one("1");
+    assert!(changed.code == Some(2) && changed.err.contains("list them again with --list"), "{changed:?}");
+    assert_eq!(one("3").code, Some(0));
+    for both in [&["--list", "--collect"][..], &["--run", "1", "--threads", "2"], &["--check", "--run", "1"]] {
+        let outcome = lab.run(&[&["study", "friction.toml"], both].concat());
+        assert_eq!(outcome.code, Some(2), "{both:?}");
+    }
+}
