@@ -61,6 +61,11 @@ impl Hold {
         Self { normal, ..self }
     }
 
+    /// The same with another friction.
+    pub(super) fn rubbing(self, friction: Friction) -> Self {
+        Self { friction: seeded::times(Seed::BoundaryNodeFriction, friction.coefficient()), ..self }
+    }
+
     /// There is nothing at the node in this step.
     pub fn let_go(&mut self) {
         (self.impulse, self.state) = ([0.0; 2], HoldState::Apart);
