@@ -201,7 +201,10 @@ impl Chain {
         let [from, to, s] = [p.from[across], p.to[across], at[across]].map(|c| way * c);
         let back = if piece > 0 && self.is_nook(piece - 1) { reach * p.tangent[across].abs() } else { 0.0 };
         let ahead = if self.is_nook(piece) { reach * p.tangent[across].abs() } else { 0.0 };
-        (piece == 0 || s >= from - back) && (piece + 1 == self.pieces.len() || s < to + ahead)
+        let next = self.pieces.get(piece + 1);
+        // Where the next piece is met by other lines, the corner belongs to both.
+        let shared = next.is_some_and(|n| n.normal.iamax() != p.normal.iamax());
+        (piece == 0 || s >= from - back) && (next.is_none() || s < to + ahead || shared && s <= to)
     }
 }
 
@@ -235,7 +238,7 @@ mod tests {
             assert!((near.distance - distance).abs() < 1e-12, "{x:?} {near:?}");
             assert!((Vector2::from(near.normal) - Vector2::from(normal)).norm() < 1e-12, "{x:?} {near:?}");
         }
-        assert_eq!([0, 1, 2, 3].map(|k| c.is_nook(k)), [false, true, false, false]);
+        assert_eq!([1, 2, 3].map(|k| c.is_nook(k)), [true, false, false]);
         assert!(c.turn(0) > 0.0 && c.turn(2) < 0.0);
         assert!((c.length() - (8f64.sqrt() + 3.0 + 1.0 + 2.0)).abs() < 1e-12);
         assert!((c.nearest([4.0, 3.0]).along - (8f64.sqrt() + 5.0)).abs() < 1e-12);
@@ -262,16 +265,19 @@ mod tests {
     /// Each vertical line meets one of the flat pieces, each horizontal one the riser; the floor and the riser go on behind their nook.
     #[test]
     fn a_line_meets_one_piece() {
-        let c = chain();
+        let points = vec![[-2.0, 1.0], [0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [5.0, 1.0]];
+        let c = Chain::new(points, &[Friction::Smooth; 4]).expect("a chain");
         let met = |x: f64, axis: usize| -> Vec<usize> {
             (0..4).filter(|&k| c.covers(k, Vector2::new(x, x), axis, 0.2)).collect()
         };
         assert_eq!(met(-5.0, 1), [0]);
         // The riser has no extent along x: it is met where its lines are horizontal.
-        assert_eq!(met(0.0, 1), [1]);
+        assert_eq!([met(-0.001, 1), met(0.001, 1)], [[0], [1]]);
         assert_eq!([met(2.9, 1), met(3.1, 1), met(3.3, 1)], [vec![1], vec![1, 3], vec![3]]);
         assert!(c.covers(2, Vector2::new(3.0, 0.5), 0, 0.2) && c.covers(2, Vector2::new(3.0, -0.1), 0, 0.2));
-        assert!(!c.covers(2, Vector2::new(3.0, 1.0), 0, 0.2) && !c.covers(2, Vector2::new(3.0, -0.3), 0, 0.2));
+        // The crest belongs to the riser and to the tread.
+        assert!(c.covers(2, Vector2::new(3.0, 1.0), 0, 0.2) && c.covers(3, Vector2::new(3.0, 1.0), 1, 0.2));
+        assert!(!c.covers(2, Vector2::new(3.0, 1.01), 0, 0.2) && !c.covers(2, Vector2::new(3.0, -0.3), 0, 0.2));
     }
 
     #[test]

@@ -50,7 +50,7 @@ pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
     Body, Case, Gravity, Integration, Kinematics, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics,
-    Output, Run, Settle, SettleScale, SideWalls, Stages, Tilt,
+    Output, Run, Settle, SettleScale, SideWalls, Stages, Tilt, nearest_whole,
 };
 #[cfg(test)]
 pub(crate) use validate::AGENTS;

@@ -404,8 +404,14 @@ impl Body {
             let [nx, ny] = self.particle_counts(grid);
             return nx * ny;
         }
-        (self.area_m2() / self.particle_spacing_m(grid).powi(2)).round().max(1.0)
+        nearest_whole(self.area_m2() / self.particle_spacing_m(grid).powi(2)).max(1.0)
     }
+}
+
+/// The nearest whole number; the lower one of what lies in the middle between two but for round-off, so that a shape that is moved or turned
+/// is cut into the same pieces.
+pub fn nearest_whole(number: f64) -> f64 {
+    (number - 1.0e-6).round()
 }
 
 /// Spacings that fill a side to this share of it count as filling it: cell sizes are written with few digits, 0.0133333 m for a

@@ -3,12 +3,12 @@
 //! All particles of a body have one mass. So the shape is cut into as many pieces of one area, and each has a particle at its centre: the mass
 //! is that of the drawing, and nothing sticks out of it. A polygon is cut into columns along its own x axis, each of which holds a whole number
 //! of pieces, and a column from its lower edge to its upper one in equal shares of its height, so that rows follow what the shape stands on and
-//! what it ends with. Where a column has several parts, which happens only to shapes that fork along the axis, each gets the whole number that
+//! what it ends with. Where a column has several parts, because the shape forks or steps along the axis, each gets the whole number that
 //! is nearest to its area and to what the columns before it have left over. A disk or a ring is cut into rings, and these into sectors.
 //!
 //! Elsewhere: particle seeding, discretisation of the initial domain; largest remainders.
 
-use crate::case::{Ring, direction};
+use crate::case::{Ring, direction, nearest_whole};
 use crate::seeded::{self, Seed};
 use std::f64::consts::PI;
 
@@ -59,6 +59,12 @@ impl Trapezoid {
     /// Length over which one that ends here and one that begins here are open to each other.
     fn opening(&self, next: &Self) -> f64 {
         self.high[1].min(next.high[0]) - self.low[1].max(next.low[0])
+    }
+
+    /// Whether one that begins where this one ends goes on from it, with steps of at most `step` (m) in its sides.
+    fn goes_on(&self, next: &Self, step: f64) -> bool {
+        let steps = [self.low[1] - next.low[0], self.high[1] - next.high[0]];
+        self.opening(next) > 0.0 && steps.iter().all(|s| s.abs() <= step)
     }
 }
 
@@ -137,6 +143,9 @@ impl Part {
     }
 }
 
+/// Steps of a side up to this share of a column's width are no end of a part.
+const STEP: f64 = 0.5;
+
 /// The parts of the column between two places.
 fn parts(stretches: &[Vec<Trapezoid>], from: f64, to: f64) -> Vec<Part> {
     let cut = |s: &Vec<Trapezoid>| s.iter().filter_map(|t| t.cut(from, to)).collect::<Vec<_>>();
@@ -146,12 +155,13 @@ fn parts(stretches: &[Vec<Trapezoid>], from: f64, to: f64) -> Vec<Part> {
     let mut open: Vec<usize> = Vec::new();
     for (k, now) in inside.iter().enumerate() {
         let before: &[Trapezoid] = if k > 0 { &inside[k - 1] } else { &[] };
-        let beside =
-            |t: &Trapezoid| -> Vec<usize> { (0..before.len()).filter(|&b| before[b].opening(t) > 0.0).collect() };
+        let beside = |t: &Trapezoid| -> Vec<usize> {
+            (0..before.len()).filter(|&b| before[b].goes_on(t, STEP * (to - from))).collect()
+        };
         let mut next = Vec::with_capacity(now.len());
         for t in now {
             let own = match beside(t)[..] {
-                [one] if now.iter().filter(|o| before[one].opening(o) > 0.0).count() == 1 => open[one],
+                [one] if now.iter().filter(|o| before[one].goes_on(o, STEP * (to - from))).count() == 1 => open[one],
                 _ => {
                     found.push(Part(Vec::new()));
                     found.len() - 1
@@ -219,7 +229,7 @@ pub fn polygon(points: &[Point], count: usize, rotation_deg: f64, moved: Moved) 
 fn edges(stretches: &[Vec<Trapezoid>], up_to: &[f64], [low, high]: [f64; 2], count: usize) -> Vec<(f64, usize)> {
     let total = up_to.last().copied().unwrap_or(0.0);
     let piece = total / count as f64;
-    let columns = ((high - low) / piece.sqrt()).round().max(1.0) as usize;
+    let columns = nearest_whole((high - low) / piece.sqrt()).max(1.0) as usize;
     let begins: Vec<f64> = stretches.iter().map(|s| s.first().map_or(low, |t| t.u[0])).collect();
     let area = |u: f64| {
         let k = begins.partition_point(|b| *b <= u).saturating_sub(1);
@@ -237,7 +247,7 @@ fn edges(stretches: &[Vec<Trapezoid>], up_to: &[f64], [low, high]: [f64; 2], cou
     };
     let mut edges = vec![(low, 0)];
     for k in 1..columns {
-        let pieces = (area(low + (high - low) * k as f64 / columns as f64) / piece).round() as usize;
+        let pieces = nearest_whole(area(low + (high - low) * k as f64 / columns as f64) / piece) as usize;
         if pieces > edges.last().map_or(0, |e| e.1) && pieces < count {
             edges.push((place(pieces as f64 * piece), pieces));
         }
@@ -250,7 +260,8 @@ fn edges(stretches: &[Vec<Trapezoid>], up_to: &[f64], [low, high]: [f64; 2], cou
 fn whole(shares: &[f64], sum: usize) -> Vec<usize> {
     // Round-off must not take a piece from a part that has it whole.
     let mut counts: Vec<usize> = shares.iter().map(|s| (s + 1.0e-9).max(0.0).floor() as usize).collect();
-    let rest = |counts: &[usize], k: usize| shares[k] - counts[k] as f64;
+    // Nor decide between equals.
+    let rest = |counts: &[usize], k: usize| ((shares[k] - counts[k] as f64) * 1.0e6).round();
     while counts.iter().sum::<usize>() < sum {
         let Some(k) = (0..shares.len()).max_by(|&a, &b| rest(&counts, a).total_cmp(&rest(&counts, b))) else { break };
         counts[k] += 1;
@@ -268,14 +279,14 @@ pub fn ring(ring: &Ring, count: usize, rotation_deg: f64, moved: Moved) -> Vec<P
     let Ring { centre_m: [x, y], radius_m: outer, inner_radius_m: inner } = *ring;
     let per_radian = 0.5 * (outer - inner) * (outer + inner);
     let piece = 2.0 * PI * per_radian / count as f64;
-    let rings = ((outer - inner) / piece.sqrt()).round().max(1.0) as usize;
+    let rings = nearest_whole((outer - inner) / piece.sqrt()).max(1.0) as usize;
     let [c, s] = direction(rotation_deg);
     let mut centres = Vec::with_capacity(count);
     let (mut begin, mut before) = (inner, 0);
     for k in 1..=rings {
         let wanted = inner + (outer - inner) * k as f64 / rings as f64;
         let area = PI * (wanted - inner) * (wanted + inner);
-        let pieces = if k == rings { count } else { ((area / piece).round() as usize).min(count) };
+        let pieces = if k == rings { count } else { (nearest_whole(area / piece) as usize).min(count) };
         if pieces <= before {
             continue;
         }

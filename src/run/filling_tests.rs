@@ -33,31 +33,42 @@ fn a_rectangle_has_a_lattice() {
     }
 }
 
-/// Where no column forks each piece has the same area, so that their mean is the centre of the area: of a triangle a third of its corners; of an
-/// L, by its two rectangles, (3 x 1.5 + 2 x 0.5) / 5 along each axis. Along a turned axis the same.
+/// Where no column forks or steps each piece has the same area, so that their mean is the centre of the area: of a triangle a third of its
+/// corners, along any axis. An L has a step, so a piece may lie on the wrong side of it; by its two rectangles its centre is at
+/// (3 x 1.5 + 2 x 0.5) / 5 along each axis.
 #[test]
 fn the_mean_of_the_centres_is_the_centre_of_the_area() {
     let triangle: &[Point] = &[[0.0, 0.0], [4.0, 1.0], [1.0, 3.0]];
     let l: &[Point] = &[[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
     for (corners, centre, area) in [(triangle, [5.0 / 3.0, 4.0 / 3.0], 5.5), (l, [1.1, 1.1], 5.0)] {
         for angle in [0.0, 17.0, -45.0, 180.0] {
-            // Turned against the L, its arms fork.
-            if area == 5.0 && angle != 0.0 && angle != 180.0 {
-                continue;
-            }
-            for count in [1, 7, 350, 2000] {
+            for count in [1, 7, 350, 800] {
                 let found = polygon(corners, count, angle, STILL);
                 assert_eq!(found.len(), count);
-                // An L of one piece has its centre outside.
-                if count > 7 || area != 5.0 {
-                    assert!(near(mean(&found), centre, 1e-12), "{area} {angle} {count} {:?}", mean(&found));
-                }
+                let within = if area == 5.0 { 3.0 / count as f64 } else { 1e-12 };
+                assert!(near(mean(&found), centre, within), "{area} {angle} {count} {:?}", mean(&found));
             }
-            let spacing = (area / 2000f64).sqrt();
-            let gaps = nearest(&polygon(corners, 2000, angle, STILL));
+            let spacing = (area / 350f64).sqrt();
+            let gaps = nearest(&polygon(corners, 350, angle, STILL));
             let [least, most] = gaps.iter().fold([9.0f64, 0.0], |[a, b], g| [a.min(*g), b.max(*g)]);
             assert!(least > 0.4 * spacing && most < 1.6 * spacing, "{angle}: {least} {most} of {spacing}");
         }
+    }
+}
+
+/// Where the area up to a column's edge lies in the middle between two numbers of pieces, as it does in this heap, round-off does not decide:
+/// moved or turned with its axis the heap has the same pieces.
+#[test]
+fn a_moved_shape_is_cut_into_the_same_pieces() {
+    let heap = [[0.0, 0.4], [0.0, 0.0], [0.5, 0.0], [0.8, 0.15], [0.6, 0.35]];
+    let drawn = polygon(&heap, 404, 0.0, STILL);
+    for (by, angle) in
+        [([0.25, -0.1], 0.0), ([1.3, 7.7], 0.0), ([0.0, 0.0], 90.0), ([0.3, 0.1], 33.0), ([0.1, 0.2], -140.0f64)]
+    {
+        let [c, s] = crate::case::direction(angle);
+        let image = |p: Point| [c * p[0] - s * p[1] + by[0], s * p[0] + c * p[1] + by[1]];
+        let found = polygon(&heap.map(image), 404, angle, STILL);
+        assert!(found.iter().zip(&drawn).all(|(p, q)| near(*p, image(*q), 1e-12)), "{by:?} {angle}");
     }
 }
 
@@ -68,7 +79,7 @@ fn columns_that_fork_share_their_pieces() {
     let c: &[Point] = &[[0.0, 0.0], [5.0, 0.0], [5.0, 0.3], [0.5, 0.3], [0.5, 1.1], [5.0, 1.1], [5.0, 2.0], [0.0, 2.0]];
     let area = 5.0 * 0.3 + 5.0 * 0.9 + 0.5 * 0.8;
     for angle in [0.0, 90.0, 30.0, -160.0] {
-        for count in [40, 641, 3000] {
+        for count in [40, 641] {
             let found = polygon(c, count, angle, STILL);
             assert_eq!(found.len(), count, "{angle}");
             let inside = |p: &Point| {
@@ -92,7 +103,7 @@ fn disks_and_rings() {
     for (inner, outer) in [(0.0, 0.5), (0.3, 0.5), (0.02, 0.5), (0.48, 0.5)] {
         let drawn = Ring { centre_m: [2.0, -1.0], radius_m: outer, inner_radius_m: inner };
         let area = std::f64::consts::PI * (outer * outer - inner * inner);
-        for spacing in [0.01, 0.02] {
+        for spacing in [0.02, 0.025] {
             let count = (area / (spacing * spacing)).round() as usize;
             for angle in [0.0, 33.0] {
                 let found = ring(&drawn, count, angle, STILL);

@@ -22,6 +22,9 @@ impl Search<'_> {
         let Some(index) = faces.first().map(|f| f.index).filter(|_| near.distance <= NEAR * h) else { return };
         let behind = |piece, normal| self.behind_piece((node, x), index, chain, piece, normal);
         let before = (found.sites.len(), found.holds.len());
+        // Behind a nook both of its pieces act, each as a plane would.
+        let nook = (near.at_corner && chain.is_nook(near.piece)).then_some([near.piece, near.piece + 1]);
+        let mut met = [false; 2];
         for (piece, face) in faces.iter().enumerate() {
             let (d, _) = face.side.face_coordinates(x);
             if d > face.near() || d + face.step <= face.near() {
@@ -31,21 +34,29 @@ impl Search<'_> {
             if !chain.covers(piece, at, face.axis, BEHIND * h) {
                 continue;
             }
+            nook.iter().flatten().zip(&mut met).for_each(|(own, met)| *met |= *own == piece);
             if d < -face.near() {
                 found.sites.extend(self.crossing_of_piece(node, x, face, at, chain, piece));
             } else {
                 found.holds.push(behind(piece, None));
             }
         }
-        if (found.sites.len(), found.holds.len()) != before || near.distance > self.tolerance {
+        let open = (found.sites.len(), found.holds.len()) == before;
+        if near.distance > self.tolerance {
+            return;
+        }
+        if let Some(pieces) = nook {
+            let rest = pieces.into_iter().zip(met).filter(|(_, met)| !met || open);
+            found.holds.extend(rest.map(|(piece, _)| behind(piece, None)));
+            return;
+        }
+        if !open {
             return;
         }
         if near.distance > -h
             && let Some(site) = self.crossing_left(node, x, faces, chain)
         {
             found.sites.push(site);
-        } else if near.at_corner && chain.is_nook(near.piece) {
-            found.holds.extend([near.piece, near.piece + 1].map(|piece| behind(piece, None)));
         } else {
             found.holds.push(behind(near.piece, Some(near.normal)));
         }

@@ -1,7 +1,8 @@
 //! Shapes of bodies and terrain: what is accepted and what it means, and what is refused.
 
 use super::{changed, report_of};
-use crate::case::{Case, Drawing, load, parse};
+use crate::boundary::Friction;
+use crate::case::{Case, Drawing, Shape, load, parse};
 
 /// A block on a slope, in metres, of 2 cm cells.
 const BLOCK: &str = r#"
@@ -64,7 +65,7 @@ const REFUSED: &[Bad] = &[
     ("foot_m = [0.5, 0.3]\nheight_m = 0.2\nthickness_m = 0.1\nrotation_deg = 10", None, &["use inclination_deg"]),
     ("foot_m = [0.5, 0.3]\nheight_m = 0.2\nthickness_m = 0.001", None, &["thickness_m", "thinner than a particle"]),
     ("polygon_m = [[0.1, 0], [1, -0.1], [1.4, 0.2], [0.6, 0.5]]", None, &["overlaps boundary `bed` by 0.1 m"]),
-    // Its corners are outside, a corner of the ground lies in it.
+    // Its corners are outside, its sides pass through the ground.
     ("polygon_m = [[-0.5, 0.2], [3, 0.9], [3, 1.5]]", Some(("[[0, 0], [1, 0], [2, 0.5]]", "[[0, 0], [1, 1], [2, 0]]")), &["overlaps boundary `bed`"]),
     (HEAP, Some(("spacing_m = 0.02", "spacing_m = 0.02, filling = \"square\"")), &["no rectangle", "filling = \"fitted\""]),
     ("polygon_m = [[0.1, 0], [1, 0], [1.4, 0.2], [0.6, 0.5]]\nmass_kg = 300", None, &["differs from density x area", "density_kg_per_m3 = "]),
@@ -179,9 +180,7 @@ fn a_body_by_its_foot() {
         "x_m = [0.1, 0.2]\ny_m = [0.1, 0.2]",
         1,
     );
-    let Some(crate::case::Shape::Wall(w)) = case(&wall).boundaries[1].shape(&case(&wall).grid) else {
-        panic!("a wall")
-    };
+    let Some(Shape::Wall(w)) = case(&wall).boundaries[1].shape(&case(&wall).grid) else { panic!("a wall") };
     let (mut of_wall, mut of_body) = (w.corners_m().to_vec(), turned);
     let by_place = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]);
     (of_wall.sort_by(by_place), of_body.sort_by(by_place));
@@ -203,6 +202,18 @@ fn what_a_case_says_of_its_shapes() {
     let sheared = case(&with("x_m = [0.5, 0.7]\ny_m = [0.5, 0.7]\nvelocity_gradient_per_s = [[0, 5], [0, 0]]"));
     assert_eq!(sheared.bodies[0].velocity_at([0.6, 0.7], [0.6, 0.6]).map(|v| (v * 1e9).round()), [0.5e9, 0.0]);
     assert!((sheared.bodies[0].fastest_m_per_s() - 0.5).abs() < 1e-14);
+    // Each piece of a terrain has its friction, whichever way one walks.
+    for (points, frictions, side) in
+        [("[[0, 0], [1, 0], [2, 0.5]]", "[0.1, 0.2]", "left"), ("[[2, 0.5], [1, 0], [0, 0]]", "[0.2, 0.1]", "right")]
+    {
+        let own = format!("friction_by_piece = {frictions}\nmaterial_side = \"{side}\"");
+        let text = with(HEAP).replacen("friction = 0.4", &own, 1).replacen("[[0, 0], [1, 0], [2, 0.5]]", points, 1);
+        let loaded = case(&text);
+        let Some(Shape::Terrain(chain)) = loaded.boundaries[0].shape(&loaded.grid) else { panic!("a terrain") };
+        let rub = |x: [f64; 2]| chain.pieces()[chain.nearest(x).piece].friction;
+        assert_eq!([rub([0.5, 0.1]), rub([1.5, 0.3])], [0.1, 0.2].map(Friction::Coulomb));
+        assert!((chain.nearest([0.5, 0.1]).distance - 0.1).abs() < 1e-15);
+    }
     // Either way round, from the same corner.
     let Some(Drawing::Polygon(p)) = case(&with("polygon_m = [[0.1, 0], [0.6, 0.5], [1, 0]]")).bodies[0].drawing()
     else {

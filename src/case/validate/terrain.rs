@@ -1,6 +1,6 @@
 //! Terrain: polylines whose pieces make sense, and what they cannot do.
 
-use super::{Checker, text, text_down, toml_text};
+use super::{Checker, text, text_down};
 use crate::boundary::{BoundaryContact, Chain, Friction};
 use crate::case::angle::direction;
 use crate::case::boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide};
@@ -160,7 +160,7 @@ impl Checker<'_> {
         let what = format!("{} and boundary `{}` face the same way, within 45 degrees", at.key("points_m"), other.name);
         let allowed = "one polyline for what goes on from it; planes and polylines that make a corner beside it";
         let fix = format!("draw `{}` as pieces of the polyline, or name the bodies of each", other.name);
-        self.problem(&at.key("points_m"), what, &toml_text(&""), allowed, &fix);
+        self.problem(&at.key("points_m"), what, &"", allowed, &fix);
     }
 }
 
