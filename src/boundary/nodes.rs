@@ -50,6 +50,11 @@ pub(super) enum HoldState {
     Sticking,
 }
 
+/// The coefficient of friction at a node.
+fn coefficient(friction: Friction) -> f64 {
+    seeded::times(Seed::BoundaryNodeFriction, friction.coefficient())
+}
+
 impl Hold {
     /// The same at so many metres above the lower edge of a gate and more.
     pub(super) fn clear_of_edge(self, clear: f64) -> Self {
@@ -63,7 +68,7 @@ impl Hold {
 
     /// The same with another friction.
     pub(super) fn rubbing(self, friction: Friction) -> Self {
-        Self { friction: seeded::times(Seed::BoundaryNodeFriction, friction.coefficient()), ..self }
+        Self { friction: coefficient(friction), ..self }
     }
 
     /// There is nothing at the node in this step.
@@ -111,7 +116,7 @@ impl Hold {
             normal: contact.normal,
             along: contact.along,
             arm: minus(x, boundary.foot().into()),
-            friction: seeded::times(Seed::BoundaryNodeFriction, boundary.friction.coefficient()),
+            friction: coefficient(boundary.friction),
             bonded: boundary.friction == Friction::Bonded,
             both_ways,
             clear: 0.0,

@@ -168,6 +168,11 @@ pub struct Wall {
     pub thickness_m: f64,
 }
 
+/// Coulomb friction of this coefficient.
+fn coulomb(friction: f64) -> Friction {
+    Friction::Coulomb(seeded::times(Seed::CaseFriction, friction))
+}
+
 impl Boundary {
     /// Thickness of walls and gates that give none, in cells.
     pub const DEFAULT_THICKNESS_CELLS: f64 = 4.0;
@@ -189,7 +194,7 @@ impl Boundary {
             ContactKind::Smooth => Some(Friction::Smooth),
             ContactKind::Coulomb => {
                 let first = self.friction_by_piece.as_ref().and_then(|each| each.first().copied());
-                Some(Friction::Coulomb(seeded::times(Seed::CaseFriction, self.friction.or(first)?)))
+                Some(coulomb(self.friction.or(first)?))
             }
             ContactKind::Rough => Some(Friction::Rough),
             ContactKind::Bonded if seeded::is(Seed::CaseClamp) => Some(Friction::Rough),
@@ -202,7 +207,7 @@ impl Boundary {
         let mut points = self.points_m.clone()?;
         let pieces = points.len().saturating_sub(1);
         let mut frictions = match &self.friction_by_piece {
-            Some(each) => each.iter().map(|f| Friction::Coulomb(seeded::times(Seed::CaseFriction, *f))).collect(),
+            Some(each) => each.iter().map(|f| coulomb(*f)).collect(),
             None => vec![self.contact_law()?; pieces],
         };
         if self.material_side.unwrap_or_default() == MaterialSide::Right {

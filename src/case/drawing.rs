@@ -2,8 +2,7 @@
 
 use super::angle::direction;
 use super::boundary::MaterialSide;
-use super::geometry::Point;
-use super::polygon;
+use super::polygon::{self, Point, rectangle};
 use super::schema::Body;
 use crate::seeded::{self, Seed};
 
@@ -44,7 +43,7 @@ impl Rectangle {
     /// Its corners, m, counter-clockwise from the one about which it is turned.
     pub fn corners_m(&self) -> [Point; 4] {
         let [[length, height], u] = [self.size_m, direction(self.rotation_deg)];
-        super::geometry::rectangle(self.corner_m, u, length, [-u[1], u[0]], height)
+        rectangle(self.corner_m, u, length, [-u[1], u[0]], height)
     }
 }
 

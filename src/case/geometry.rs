@@ -4,12 +4,9 @@ use super::angle::direction;
 use super::boundary::{Boundary, MaterialSide, Shape, Wall};
 use super::drawing::{Drawing, Ring};
 use super::grid::Grid;
-use super::polygon;
+use super::polygon::{self, Point, rectangle};
 use super::schema::Body;
 use crate::boundary::Chain;
-
-/// A point or a direction, m.
-pub type Point = [f64; 2];
 
 /// How far a body lies inside something, and the direction in which it is nearest to getting out.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,12 +19,6 @@ pub struct Penetration {
 
 fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
-}
-
-/// The corners of a rectangle from one of them along two of its sides.
-pub(super) fn rectangle(corner: Point, u: Point, length_u: f64, v: Point, length_v: f64) -> [Point; 4] {
-    let at = |a: f64, b: f64| [corner[0] + a * u[0] + b * v[0], corner[1] + a * u[1] + b * v[1]];
-    [at(0.0, 0.0), at(length_u, 0.0), at(length_u, length_v), at(0.0, length_v)]
 }
 
 impl Wall {

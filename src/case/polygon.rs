@@ -1,6 +1,13 @@
 //! Simple polygons: area, centroid, what lies inside, and whether sides cross.
 
-use super::geometry::Point;
+/// A point or a direction, m.
+pub type Point = [f64; 2];
+
+/// The corners of a rectangle from one of them along two of its sides.
+pub fn rectangle(corner: Point, u: Point, length_u: f64, v: Point, length_v: f64) -> [Point; 4] {
+    let at = |a: f64, b: f64| [corner[0] + a * u[0] + b * v[0], corner[1] + a * u[1] + b * v[1]];
+    [at(0.0, 0.0), at(length_u, 0.0), at(length_u, length_v), at(0.0, length_v)]
+}
 
 fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]

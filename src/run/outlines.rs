@@ -65,7 +65,7 @@ fn strip(chain: &Chain, simulation: &Simulation) -> Vec<Vector2<f64>> {
     let [before, after] = [beyond(points[0], -first.tangent), beyond(points[end], last.tangent)];
     points[0] -= first.tangent * before;
     points[end] += last.tangent * after;
-    let depth = seeded::times(Seed::TablesGeometry, 2.0 * simulation.spacing());
+    let depth = 2.0 * simulation.spacing();
     let behind: Vec<Vector2<f64>> = (0..points.len())
         .map(|k| {
             let (a, b) = (pieces[k.saturating_sub(1)].normal, pieces[k.min(pieces.len() - 1)].normal);
