@@ -309,15 +309,16 @@ const HEAP: &str = "[0, 0.4], [0, 0], [0.5, 0], [0.8, 0.15], [0.6, 0.35]";
 /// The pit: a wall, a floor, a slope, a crest.
 const PIT: &str = "[0, 1], [0, 0], [0.5, 0], [1.1, 0.3], [1.6, 0.2]";
 
+/// Friction is more than the slope, on which the toe of the heap would creep.
 fn heap(stages: &str, law: &str) -> String {
     format!(
         r#"title = "A heap in a pit"
 gravity = {{ magnitude_m_per_s2 = {G}, inclination_deg = 0 }}
-grid = {{ spacing_m = 0.05, thickness_m = {WIDTH}, origin_m = [0.013, -0.021] }}
+grid = {{ spacing_m = 0.05, thickness_m = {WIDTH}, origin_m = [0.013, -0.017] }}
 domain = {{ x_m = [-0.5, 2], y_m = [-0.5, 1.5] }}
 materials.stuff = {law}
 bodies = [{{ name = "heap", material = "stuff", polygon_m = [{HEAP}] }}]
-boundaries = [{{ name = "pit", kind = "polyline", points_m = [{PIT}], contact = "coulomb", friction = 0.5 }}]
+boundaries = [{{ name = "pit", kind = "polyline", points_m = [{PIT}], contact = "coulomb", friction = 0.8 }}]
 {stages}
 output.vtk_interval_s = 0
 "#
@@ -326,21 +327,23 @@ output.vtk_interval_s = 0
 
 /// At rest the pit carries the weight.
 fn pit(outcome: &mut Outcome) -> Result<(), RungFailure> {
-    let stages = "stages.settle = { damping_per_s = 60, residual = 1e-4, max_time_s = 3 }\nstages.run = { end_time_s = 0.1, stop_at_rest = false }";
+    let stages = "stages.settle = { damping_per_s = 60, residual = 1e-3, max_time_s = 3 }\nstages.run = { end_time_s = 0.1, stop_at_rest = false }";
     let files = Files::run(&heap(stages, &elastic(1500.0)))?;
     // Gauss's formula for the corners of the heap.
     let area = 0.5 * (0.5 * 0.15 + (0.8 * 0.35 - 0.6 * 0.15) + 0.6 * 0.4);
     let impulse = 1500.0 * area * WIDTH * G * last(&files, "momentum.csv", "time_s");
     let [along, up] = ["pit_x_n_s", "pit_y_n_s"].map(|name| last(&files, "momentum.csv", name) / impulse);
-    let still = "the residual of the settling over a tenth of a second: 1e-4 sqrt(g H) / (g t)";
+    // At the residual r all moves at r sqrt(g H) at most, which may turn round in the time.
+    let moves = 2.0 * 1e-3 * (0.4f64 / G).sqrt() / 0.1;
+    let still = "what moves at the residual of the settling may turn round in a tenth of a second: 2 r sqrt(H / g) / t";
     outcome.check(
         Check::value("heap in a pit: what the pit carries over the weight", up, 1.0, "1")
-            .within(Tolerance::Absolute(1e-3), still)
+            .within(Tolerance::Absolute(moves), still)
             .from(Kind::Conservation, "statics"),
     );
     outcome.check(
         Check::value("the same: horizontal force over the weight", along, 0.0, "1")
-            .within(Tolerance::Absolute(1e-3), still)
+            .within(Tolerance::Absolute(moves), still)
             .from(Kind::Conservation, "statics: the pit is the only boundary"),
     );
     Ok(())
