@@ -34,6 +34,7 @@ pub mod scene;
 pub mod self_weight;
 pub mod sliding_block;
 pub mod slip;
+pub mod terrain;
 pub mod wall_place;
 pub mod wall_pressure;
 
@@ -159,6 +160,7 @@ ladder! { $
     fall,
     collapse,
     outflow,
+    terrain,
     files_rigid,
     invariance,
     convergence,

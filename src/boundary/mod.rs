@@ -6,16 +6,20 @@
 //!
 //! Elsewhere: rigid obstacles, and essential (Dirichlet) conditions at nodes: free slip, no slip, unilateral, fixed.
 
+mod chain;
 pub mod nodes;
 pub mod search;
 mod side;
 pub(crate) mod slip;
 pub(crate) mod surface;
 
+pub use chain::{Chain, Near, Piece};
+
 use crate::seeded::{self, Seed};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use slip::SlipLaw;
+use std::sync::Arc;
 
 /// Where boundaries act.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize)]
@@ -68,7 +72,7 @@ pub enum Opening {
 }
 
 /// Shape of a boundary.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
     /// Everything on the side of `point` that the normal points away from.
     HalfSpace {
@@ -85,6 +89,11 @@ pub enum Solid {
         thickness: f64,
         /// Whether only the face acts (gates), or also crest and back.
         face_only: bool,
+    },
+    /// Everything on the right of a chain of pieces, each with its own friction.
+    Terrain {
+        /// The chain.
+        chain: Arc<Chain>,
     },
 }
 
@@ -164,6 +173,17 @@ impl Boundary {
         }
     }
 
+    /// Terrain below a chain; its friction as a whole is that of its first piece, its tangent leads from its first point to its last.
+    pub fn terrain(name: &str, chain: Chain) -> Self {
+        let (first, last) = (chain.pieces().first(), chain.pieces().last());
+        let from = first.map_or_else(Vector2::zeros, |p| p.from);
+        let chord = last.map_or_else(Vector2::zeros, |p| p.to) - from;
+        let tangent = if chord.norm() > 0.0 { chord } else { Vector2::new(1.0, 0.0) };
+        let friction = first.map_or(Friction::Smooth, |p| p.friction);
+        let plane = Self::plane(name, from, Vector2::new(-tangent.y, tangent.x), friction);
+        Self { solid: Solid::Terrain { chain: Arc::new(chain) }, ..plane }
+    }
+
     /// The same boundary for some bodies only, by index.
     pub fn only_for(self, bodies: &[usize]) -> Self {
         Self { bodies: bodies.to_vec(), ..self }
@@ -194,32 +214,41 @@ impl Boundary {
     pub fn gate(self, opening: Opening) -> Self {
         let solid = match self.solid {
             Solid::Slab { foot, height, thickness, .. } => Solid::Slab { foot, height, thickness, face_only: true },
-            plane @ Solid::HalfSpace { .. } => plane,
+            other => other,
         };
         Self { solid, opening: Some(opening), ..self }
     }
 
-    /// Reference point: the foot of a wall, the given point of a plane.
+    /// Reference point: the foot of a wall, the given point of a plane, the first point of a terrain.
     pub fn foot(&self) -> Vector2<f64> {
-        match self.solid {
-            Solid::HalfSpace { point } => point,
-            Solid::Slab { foot, .. } => foot,
+        match &self.solid {
+            Solid::HalfSpace { point } => *point,
+            Solid::Slab { foot, .. } => *foot,
+            Solid::Terrain { chain } => chain.points()[0].into(),
         }
     }
 
-    /// Height of a wall, m; infinite for a plane.
+    /// Height of a wall, m; infinite for a plane and a terrain.
     pub fn height(&self) -> f64 {
         match self.solid {
-            Solid::HalfSpace { .. } => f64::INFINITY,
+            Solid::HalfSpace { .. } | Solid::Terrain { .. } => f64::INFINITY,
             Solid::Slab { height, .. } => height,
         }
     }
 
-    /// Extent of a wall behind its face, m; infinite for a plane.
+    /// Extent of a wall behind its face, m; infinite for a plane and a terrain.
     pub fn thickness(&self) -> f64 {
         match self.solid {
-            Solid::HalfSpace { .. } => f64::INFINITY,
+            Solid::HalfSpace { .. } | Solid::Terrain { .. } => f64::INFINITY,
             Solid::Slab { thickness, .. } => thickness,
+        }
+    }
+
+    /// The chain of a terrain.
+    pub fn chain(&self) -> Option<&Chain> {
+        match &self.solid {
+            Solid::Terrain { chain } => Some(chain),
+            Solid::HalfSpace { .. } | Solid::Slab { .. } => None,
         }
     }
 
@@ -232,9 +261,10 @@ impl Boundary {
     /// Depth of a point inside the solid, m; zero or less outside.
     pub fn depth(&self, x: [f64; 2]) -> f64 {
         let (d, s) = self.face_coordinates(x);
-        match self.solid {
+        match &self.solid {
             Solid::HalfSpace { .. } => -d,
             Solid::Slab { height, thickness, .. } => (-d).min(thickness + d).min(s - self.free_below).min(height - s),
+            Solid::Terrain { chain } => -chain.nearest(x).distance,
         }
     }
 
@@ -246,6 +276,10 @@ impl Boundary {
     pub fn hold(&self, x: [f64; 2], spacing: f64, tolerance: f64, buried: bool) -> Option<Contact> {
         let beyond = self.travel - (self.travel / spacing).map(f64::round) * spacing;
         let (d, s) = self.face_coordinates((Vector2::from(x) + beyond).into());
+        if let Solid::Terrain { chain } = &self.solid {
+            let near = chain.nearest((Vector2::from(x) + beyond).into());
+            return (near.distance <= tolerance).then_some(Contact { normal: near.normal, along: near.along });
+        }
         let normal = match self.solid {
             Solid::HalfSpace { .. } => (d <= self.reach(spacing, tolerance)).then_some(self.normal)?,
             Solid::Slab { height, thickness, face_only, .. } => {
@@ -266,6 +300,7 @@ impl Boundary {
                     -self.normal
                 }
             }
+            Solid::Terrain { .. } => return None,
         };
         Some(Contact { normal: normal.into(), along: s })
     }
@@ -298,6 +333,8 @@ impl Boundary {
         match &mut self.solid {
             Solid::HalfSpace { point } => *point += shift,
             Solid::Slab { foot, .. } => *foot += shift,
+            Solid::Terrain { .. } if shift == Vector2::zeros() => {}
+            Solid::Terrain { chain } => Arc::make_mut(chain).shift(shift),
         }
     }
 

@@ -50,6 +50,11 @@ pub(super) enum HoldState {
     Sticking,
 }
 
+/// The coefficient of friction at a node.
+fn coefficient(friction: Friction) -> f64 {
+    seeded::times(Seed::BoundaryNodeFriction, friction.coefficient())
+}
+
 impl Hold {
     /// The same at so many metres above the lower edge of a gate and more.
     pub(super) fn clear_of_edge(self, clear: f64) -> Self {
@@ -59,6 +64,11 @@ impl Hold {
     /// The same with another normal.
     pub(super) fn toward(self, normal: [f64; 2]) -> Self {
         Self { normal, ..self }
+    }
+
+    /// The same with another friction.
+    pub(super) fn rubbing(self, friction: Friction) -> Self {
+        Self { friction: coefficient(friction), ..self }
     }
 
     /// There is nothing at the node in this step.
@@ -106,7 +116,7 @@ impl Hold {
             normal: contact.normal,
             along: contact.along,
             arm: minus(x, boundary.foot().into()),
-            friction: seeded::times(Seed::BoundaryNodeFriction, boundary.friction.coefficient()),
+            friction: coefficient(boundary.friction),
             bonded: boundary.friction == Friction::Bonded,
             both_ways,
             clear: 0.0,

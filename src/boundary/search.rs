@@ -2,6 +2,7 @@
 //!
 //! Elsewhere: contact detection; nodes inside and cut cells of an immersed boundary.
 
+use super::chain::SMOOTH;
 use super::nodes::Hold;
 use super::side::{Face, NEAR, Part};
 use super::surface::{End, Site};
@@ -9,9 +10,6 @@ use super::{Boundary, BoundaryContact, Contact};
 use crate::grid::ActiveGrid;
 use crate::seeded::{self, Seed};
 use nalgebra::Vector2;
-
-/// Planes whose normals have a larger scalar product than this are pieces of one surface; others make a corner.
-const SMOOTH: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What holds the nodes of a grid.
 #[derive(Debug, Clone, Default)]
@@ -53,13 +51,16 @@ pub fn find_holds(
         for (index, _) in search.acting() {
             let first = search.faces.partition_point(|f| f.index < index);
             let own = &search.faces[first..][..search.faces[first..].partition_point(|f| f.index == index)];
-            match own.is_empty() {
-                true => found.holds.extend(search.at_node(node, x, index)),
-                false => search.on_surface(node, x, own, found),
+            match (own.is_empty(), boundaries[index].chain()) {
+                (true, _) => found.holds.extend(search.at_node(node, x, index)),
+                (false, Some(chain)) => search.on_terrain(node, x, own, chain, found),
+                (false, None) => search.on_surface(node, x, own, found),
             }
         }
     }
 }
+
+mod terrain;
 
 impl<'a> Search<'a> {
     fn acting(&self) -> impl Iterator<Item = (usize, &'a Boundary)> {
@@ -82,7 +83,7 @@ impl<'a> Search<'a> {
     /// has `x` deeper inside by more than the tolerance.
     fn is_of_another(&self, x: [f64; 2], index: usize) -> bool {
         let own = &self.boundaries[index];
-        let smooth = |b: &Boundary| b.is_still() && b.height().is_infinite() && b.normal.dot(&own.normal) > SMOOTH;
+        let smooth = |b: &Boundary| b.is_still() && b.is_plane() && b.normal.dot(&own.normal) > SMOOTH;
         let mut others = self.acting().filter(|(other, b)| *other != index && smooth(b));
         let depth = own.depth(x);
         others.any(|(other, b)| {

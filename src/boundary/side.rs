@@ -4,7 +4,7 @@
 //! there is an opening below it. Each is a straight piece of surface with two ends; a corner of the wall is where an end of one is an
 //! end of the next.
 
-use super::{Boundary, Friction, Opening, Solid};
+use super::{Boundary, Friction, Opening, Piece, Solid};
 use nalgebra::Vector2;
 
 /// What lies within this share of a cell of a node is taken to lie on it: a crossing so near would only divide by small numbers.
@@ -48,6 +48,10 @@ pub(super) struct Face {
 impl Face {
     /// The sides of a boundary that contact on the surface knows, on cells of `spacing` (m); `is_free` says where material can be.
     pub fn of(index: usize, b: &Boundary, spacing: f64, is_free: impl Fn(Vector2<f64>) -> bool) -> Vec<Self> {
+        if let Some(chain) = b.chain() {
+            let plane = |p: &Piece| Boundary::plane("", p.from, p.normal, p.friction);
+            return chain.pieces().iter().map(|p| Self::new(index, plane(p), Part::Face, false, spacing)).collect();
+        }
         let wall = matches!(b.solid, Solid::Slab { face_only: false, .. });
         let plate = b.height().is_finite() && !b.is_gate() && b.thickness() < PLATE * spacing;
         let mut sides = vec![(b.clone(), Part::Face)];
@@ -63,21 +67,18 @@ impl Face {
                 sides.extend(ends);
             }
         }
-        let face = |(side, part): (Boundary, Part)| {
-            let axis = side.normal.iamax();
-            let [normal, tangent] = [side.normal[axis], side.tangent[1 - axis]];
-            Self {
-                index,
-                plate,
-                part,
-                axis,
-                toward: normal.signum(),
-                step: normal.abs() * spacing,
-                line: spacing / tangent.abs(),
-                side,
-            }
-        };
-        sides.into_iter().map(face).collect()
+        sides.into_iter().map(|(side, part)| Self::new(index, side, part, plate, spacing)).collect()
+    }
+
+    fn new(index: usize, side: Boundary, part: Part, plate: bool, spacing: f64) -> Self {
+        let axis = side.normal.iamax();
+        Self { index, side, plate, part, axis, toward: 0.0, step: 0.0, line: 0.0 }.along(axis, spacing)
+    }
+
+    /// The same on lines of the grid along this axis.
+    pub fn along(self, axis: usize, spacing: f64) -> Self {
+        let [normal, tangent] = [self.side.normal[axis], self.side.tangent[1 - axis]];
+        Self { axis, toward: normal.signum(), step: normal.abs() * spacing, line: spacing / tangent.abs(), ..self }
     }
 
     /// Within this distance of the face a node lies on it, m.
@@ -107,6 +108,11 @@ impl Boundary {
     /// Whether it stands still and lets go: contact on its surface is for such boundaries.
     pub(super) fn is_still(&self) -> bool {
         self.friction != Friction::Bonded && self.velocity == Vector2::zeros()
+    }
+
+    /// Whether it is a plane.
+    pub(super) fn is_plane(&self) -> bool {
+        matches!(self.solid, Solid::HalfSpace { .. })
     }
 
     /// Whether it is a gate that opens from below.

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
-use crate::boundary::{Friction, Opening};
+use crate::boundary::{Chain, Friction, Opening};
 use crate::seeded::{self, Seed};
 
 /// A rigid boundary. Which of its fields are required, and which refused, depends on `kind`, `contact` and `opening`.
@@ -19,7 +19,7 @@ use crate::seeded::{self, Seed};
 pub struct Boundary {
     /// Name. Allowed: not empty, and different from that of every other boundary. Example: `"base"`.
     pub name: String,
-    /// Plane, wall or gate. Example: `"plane"`.
+    /// Plane, wall, gate or polyline. Example: `"plane"`.
     pub kind: BoundaryKind,
     /// A point on the surface of a plane. Default: none; required by `kind = "plane"`. Allowed: only with `kind =
     /// "plane"`; `[x, y]`. Example: `[0.0, 0.0]`.
@@ -36,12 +36,19 @@ pub struct Boundary {
     /// Direction from foot to crest, from the x axis, counter-clockwise. Default: `90.0`. Allowed: only with `kind =
     /// "wall"` or `"gate"`; -360 to 360. Example: `120`.
     pub inclination_deg: Option<f64>,
-    /// The side of the face on which the material is, seen from foot to crest. Default: `"left"`. Allowed: only with
-    /// `kind = "wall"` or `"gate"`. Example: `"right"`.
+    /// The side of the face on which the material is, seen from foot to crest; of a polyline, seen along its points. Default: `"left"`.
+    /// Allowed: not with `kind = "plane"`. Example: `"right"`.
     pub material_side: Option<MaterialSide>,
     /// Thickness on the side away from the material. Default: four cells. Allowed: only with `kind = "wall"` or
     /// `"gate"`; 0 or more, and with `numerics.boundary_contact = "nodes"` at least three cells, a gate one. Example: `0.1`.
     pub thickness_m: Option<f64>,
+    /// Points of a polyline, in order. Its first and its last piece go on straight beyond their ends. Default: none; required by `kind =
+    /// "polyline"`, if no file has them. Allowed: only with `kind = "polyline"`; 2 to 1000 pairs `[x, y]`, pieces that neither cross nor
+    /// touch. Example: `[[0.0, 0.4], [0.6, 0.1], [1.5, 0.0]]`.
+    pub points_m: Option<Vec<[f64; 2]>>,
+    /// CSV file that has these points, in columns `x_m` and `y_m` under these names; relative to the case file. Default: none. Allowed:
+    /// only with `kind = "polyline"`, instead of `points_m`; not in studies. Example: `"terrain.csv"`.
+    pub points_file: Option<String>,
     /// Names of the bodies that it acts on; bodies that no `[[contacts]]` names move as one, so what holds one of them holds all.
     /// Default: all bodies. Allowed: at least one name of `[[bodies]]`. Example:
     /// `["sand"]`.
@@ -51,6 +58,9 @@ pub struct Boundary {
     /// Coulomb friction coefficient, not an angle. Default: none; required by `contact = "coulomb"`. Allowed: only with
     /// `contact = "coulomb"`; 0 or more. Example: `0.4`.
     pub friction: Option<f64>,
+    /// The same of each piece of a polyline, in order. Default: none, `friction` on all. Allowed: only with `kind = "polyline"`, instead of
+    /// `friction`; as many as there are pieces, each 0 or more. Example: `[0.4, 0.6]`.
+    pub friction_by_piece: Option<Vec<f64>>,
     /// Slip over which friction is mobilised: the traction grows in proportion to the elastic slip and reaches static friction at this
     /// one. Sand on steel or glass needs 3e-4 to 1e-3 m. Default: none, full friction without slip. Allowed: 0 or more; only with
     /// `contact = "coulomb"` and `numerics.boundary_contact = "surface"`, and not for `kind = "gate"`. Example: `5.0e-4`.
@@ -80,6 +90,8 @@ pub enum BoundaryKind {
     Wall,
     /// A wall that opens when the run starts.
     Gate,
+    /// Terrain: everything on one side of a chain of straight pieces.
+    Polyline,
 }
 
 /// The side of a wall on which the material is, seen from foot to crest.
@@ -124,7 +136,7 @@ pub enum OpeningKind {
 }
 
 /// Geometry of a boundary.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// The half space behind the point, away from the normal.
     Plane {
@@ -137,6 +149,8 @@ pub enum Shape {
     Wall(Wall),
     /// A wall that opens at release.
     Gate(Wall, Opening),
+    /// Everything on the right of a chain of pieces.
+    Terrain(Chain),
 }
 
 /// A wall: a rectangle behind the face from foot to crest.
@@ -154,6 +168,11 @@ pub struct Wall {
     pub thickness_m: f64,
 }
 
+/// Coulomb friction of this coefficient.
+fn coulomb(friction: f64) -> Friction {
+    Friction::Coulomb(seeded::times(Seed::CaseFriction, friction))
+}
+
 impl Boundary {
     /// Thickness of walls and gates that give none, in cells.
     pub const DEFAULT_THICKNESS_CELLS: f64 = 4.0;
@@ -164,6 +183,7 @@ impl Boundary {
             BoundaryKind::Plane => Some(Shape::Plane { point_m: self.point_m?, normal_deg: self.normal_deg? }),
             BoundaryKind::Wall => Some(Shape::Wall(self.wall(grid)?)),
             BoundaryKind::Gate => Some(Shape::Gate(self.wall(grid)?, self.opening_law()?)),
+            BoundaryKind::Polyline => Some(Shape::Terrain(self.chain()?)),
         }
     }
 
@@ -172,11 +192,32 @@ impl Boundary {
     pub fn contact_law(&self) -> Option<Friction> {
         match self.contact {
             ContactKind::Smooth => Some(Friction::Smooth),
-            ContactKind::Coulomb => Some(Friction::Coulomb(seeded::times(Seed::CaseFriction, self.friction?))),
+            ContactKind::Coulomb => {
+                let first = self.friction_by_piece.as_ref().and_then(|each| each.first().copied());
+                Some(coulomb(self.friction.or(first)?))
+            }
             ContactKind::Rough => Some(Friction::Rough),
             ContactKind::Bonded if seeded::is(Seed::CaseClamp) => Some(Friction::Rough),
             ContactKind::Bonded => Some(Friction::Bonded),
         }
+    }
+
+    /// The pieces of a polyline, with material on their left, each with its friction.
+    fn chain(&self) -> Option<Chain> {
+        let mut points = self.points_m.clone()?;
+        let pieces = points.len().saturating_sub(1);
+        let mut frictions = match &self.friction_by_piece {
+            Some(each) => each.iter().map(|f| coulomb(*f)).collect(),
+            None => vec![self.contact_law()?; pieces],
+        };
+        if self.material_side.unwrap_or_default() == MaterialSide::Right {
+            points.reverse();
+            frictions.reverse();
+        }
+        if seeded::is(Seed::CaseTerrain) {
+            frictions.reverse();
+        }
+        Chain::new(points, &frictions)
     }
 
     /// Slip length (m) and static coefficient, where friction needs slip.
@@ -214,7 +255,10 @@ impl Boundary {
     }
 
     pub(super) fn resolve(&mut self, grid: &Grid) {
-        if let Some(wall) = self.wall(grid).filter(|_| self.kind != BoundaryKind::Plane) {
+        if self.kind == BoundaryKind::Polyline {
+            self.material_side.get_or_insert_default();
+        }
+        if let Some(wall) = self.wall(grid).filter(|_| [BoundaryKind::Wall, BoundaryKind::Gate].contains(&self.kind)) {
             self.inclination_deg = Some(wall.inclination_deg);
             self.material_side = Some(wall.material_side);
             self.thickness_m = Some(wall.thickness_m);

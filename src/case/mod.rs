@@ -16,12 +16,15 @@
 mod angle;
 mod boundary;
 mod contact;
+mod drawing;
 mod gauges;
 mod geometry;
 mod grid;
 mod material;
 mod parse;
 mod path;
+mod points;
+mod polygon;
 mod report;
 mod schema;
 mod structure;
@@ -40,13 +43,14 @@ use thiserror::Error;
 pub use angle::direction;
 pub use boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide, OpeningKind, Shape, Wall};
 pub use contact::{BodyContact, GapKind, NormalKind};
+pub use drawing::{Drawing, Rectangle, Ring};
 pub use gauges::{Gauges, Window};
 pub use grid::{Domain, Filling, Grid};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
     Body, Case, Gravity, Integration, Kinematics, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics,
-    Output, Run, Settle, SettleScale, SideWalls, Stages, Tilt,
+    Output, Run, Settle, SettleScale, SideWalls, Stages, Tilt, nearest_whole,
 };
 #[cfg(test)]
 pub(crate) use validate::AGENTS;
@@ -96,7 +100,7 @@ pub fn file_name(name: &str) -> String {
 
 /// Reads and checks a case file.
 pub fn load(path: &Path) -> Result<LoadedCase, CaseError> {
-    parse(&read_as(&CASE, path)?, &path.display().to_string())
+    parse_in(&read_as(&CASE, path)?, &path.display().to_string(), Some(path.parent().unwrap_or(Path::new(""))))
 }
 
 /// The text of a file that should be of this format.
@@ -153,9 +157,23 @@ pub(crate) const STUDY: Format = Format {
     misplaced: structure::misplaced_in_study,
 };
 
-/// Checks the text of a case file; `name` stands for the file in reports.
+/// Checks the text of a case file; `name` stands for the file in reports. It may not name files of points: it has no folder.
 pub fn parse(text: &str, name: &str) -> Result<LoadedCase, CaseError> {
-    let (mut case, warnings) = parse_as(&CASE, text, name, validate)?;
+    parse_in(text, name, None)
+}
+
+/// The same of a file in a folder, in which the files that it names lie.
+fn parse_in(text: &str, name: &str, folder: Option<&Path>) -> Result<LoadedCase, CaseError> {
+    let mut filled = None;
+    let check = |case: &Case| {
+        let mut case = case.clone();
+        let problems = points::fill(&mut case, folder);
+        let findings = if problems.is_empty() { validate(&case) } else { Findings { problems, warnings: Vec::new() } };
+        filled = Some(case);
+        findings
+    };
+    let (case, warnings) = parse_as(&CASE, text, name, check)?;
+    let mut case = filled.unwrap_or(case);
     case.resolve();
     Ok(LoadedCase { case, warnings })
 }

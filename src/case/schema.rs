@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::boundary::Boundary;
+use super::boundary::{Boundary, MaterialSide};
 use super::contact::BodyContact;
 use super::gauges::Gauges;
 use super::grid::{Domain, Filling, Grid};
@@ -17,6 +17,8 @@ use crate::simulation::{OpenedVolume, PicShare, Scheme};
 
 /// Most particles a case may have; above this it is refused before any memory is asked for.
 pub const MAX_PARTICLES: f64 = 2.0e7;
+/// Most points of a polygon or a polyline: each of its pieces is compared with each of the others.
+pub const MAX_POINTS: usize = 1000;
 /// Most grid cells the domain may hold.
 pub const MAX_GRID_CELLS: f64 = 5.0e7;
 /// Most time steps a run may take.
@@ -37,7 +39,7 @@ pub struct Case {
     pub domain: Domain,
     /// Materials by name; bodies refer to them. At least one.
     pub materials: BTreeMap<String, Material>,
-    /// Rectangles filled with material at the start. At least one; together at most 2e7 particles.
+    /// What there is at the start. At least one; together at most 2e7 particles.
     pub bodies: Vec<Body>,
     /// Rigid planes, walls and gates.
     #[serde(default)]
@@ -76,11 +78,13 @@ pub struct Gravity {
     pub settle_inclination_deg: Option<f64>,
 }
 
-/// A rectangle filled with one material at the start.
+/// A body of one material at the start: a rectangle, a polygon, a disk or a ring.
 ///
-/// Particles sit on a lattice in the axes of the rectangle, the first one half a spacing inside its lower left corner. The
+/// It is written in one of four ways: `x_m` and `y_m`; `foot_m`, `height_m` and `thickness_m` as a wall; `polygon_m`; `centre_m` and
+/// `radius_m`. In a rectangle particles sit on a lattice in its axes, the first one half a spacing inside its lower left corner. The
 /// spacing is h / sqrt(particles per cell), or the nearest to it that fills the side, so that the particles carry the mass of
-/// the rectangle and end where it ends; `grid.filling = "square"` leaves it at the former.
+/// the rectangle and end where it ends; `grid.filling = "square"` leaves it at the former. Other shapes are cut into pieces of one area,
+/// whose number comes nearest to that spacing, and each piece has a particle at its centre.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -89,19 +93,51 @@ pub struct Body {
     pub name: String,
     /// Name of its material. Allowed: the name of one of `[materials.NAME]`. Example: `"sand"`.
     pub material: String,
-    /// Left and right edge before rotation. Allowed: `[low, high]` with low < high; the body inside the domain, outside
-    /// boundaries that act on it (but clamps) and other bodies, or touching them. Example: `[-0.2, 0.0]`.
-    pub x_m: [f64; 2],
-    /// Lower and upper edge before rotation. Allowed: as `x_m`; both sides at least the spacing of the particles.
-    /// Example: `[0.0, 0.5]`.
-    pub y_m: [f64; 2],
-    /// Rotation about the corner (`x_m[0]`, `y_m[0]`), counter-clockwise. Default: `0.0`. Allowed: -360 to 360.
-    /// Example: `60`.
+    /// Left and right edge before rotation. Default: none; a body has one shape. Allowed: `[low, high]` with low < high; the body inside
+    /// the domain, outside boundaries that act on it (but clamps) and other bodies, or touching them. Example: `[-0.2, 0.0]`.
+    pub x_m: Option<[f64; 2]>,
+    /// Lower and upper edge before rotation. Default: none; required by `x_m`. Allowed: as `x_m`; both sides at least the spacing of the
+    /// particles. Example: `[0.0, 0.5]`.
+    pub y_m: Option<[f64; 2]>,
+    /// Corners of a polygon, in order either way round. Default: none. Allowed: 3 to 1000 pairs `[x, y]`; sides that neither cross nor
+    /// touch; at least a spacing of the particles wide and high. Example: `[[0.0, 0.0], [0.4, 0.0], [0.1, 0.3]]`.
+    pub polygon_m: Option<Vec<[f64; 2]>>,
+    /// CSV file that has the corners of the polygon, in columns `x_m` and `y_m` under these names; relative to the case file. Default:
+    /// none. Allowed: instead of `polygon_m`; not in studies. Example: `"heap.csv"`.
+    pub polygon_file: Option<String>,
+    /// Centre of a disk or a ring. Default: none. Allowed: `[x, y]`. Example: `[0.0, 0.3]`.
+    pub centre_m: Option<[f64; 2]>,
+    /// Radius of a disk, outer radius of a ring. Default: none; required by `centre_m`. Allowed: at least the spacing of the particles.
+    /// Example: `0.1`.
+    pub radius_m: Option<f64>,
+    /// Radius of the hole of a ring. Default: none, a disk. Allowed: above 0, and less than `radius_m` by at least the spacing of the
+    /// particles. Example: `0.05`.
+    pub inner_radius_m: Option<f64>,
+    /// Lower end of the face of a rectangle that is written as a wall is. Default: none. Allowed: `[x, y]`. Example: `[1.2, 0.0]`.
+    pub foot_m: Option<[f64; 2]>,
+    /// Distance from foot to crest. Default: none; required by `foot_m`. Allowed: above 0. Example: `0.6`.
+    pub height_m: Option<f64>,
+    /// Thickness on the side away from the material. Default: none; required by `foot_m`. Allowed: above 0. Example: `0.1`.
+    pub thickness_m: Option<f64>,
+    /// Direction from foot to crest, from the x axis, counter-clockwise. Default: `90.0`. Allowed: only with `foot_m`; -360 to 360.
+    /// Example: `120`.
+    pub inclination_deg: Option<f64>,
+    /// The side of the face on which the material is, seen from foot to crest. Default: `"left"`. Allowed: only with `foot_m`.
+    /// Example: `"right"`.
+    pub material_side: Option<MaterialSide>,
+    /// Rotation, counter-clockwise: of a rectangle about the corner (`x_m[0]`, `y_m[0]`); of the rows of particles in a polygon, a disk or a
+    /// ring, which stay where they are drawn. Default: `0.0`. Allowed: -360 to 360; not with `foot_m`. Example: `60`.
     #[serde(default)]
     pub rotation_deg: f64,
     /// Velocity at the start, `[x, y]`. Default: `[0.0, 0.0]`. Allowed: any. Example: `[1.5, 0.0]`.
     #[serde(default)]
     pub velocity_m_per_s: [f64; 2],
+    /// Rotation at the start about the centre of its area, counter-clockwise, added to the velocity. Default: none. Allowed: any; not with
+    /// `kinematics = "total_lagrangian"`. Example: `2.0`.
+    pub spin_rad_per_s: Option<f64>,
+    /// Gradient of the velocity at the start, `[[dvx/dx, dvx/dy], [dvy/dx, dvy/dy]]`, about the centre of its area and added to the velocity.
+    /// Default: none. Allowed: any; not with `kinematics = "total_lagrangian"`. Example: `[[0.0, 5.0], [0.0, 0.0]]`.
+    pub velocity_gradient_per_s: Option<[[f64; 2]; 2]>,
     /// Particles of this body in a full cell. Default: that of `[grid]`. Allowed: 1, 4, 9 or 16. Example: `16`.
     pub particles_per_cell: Option<u32>,
     /// Largest displacement of a particle from its lattice, in either direction and at random, as a share of the
@@ -323,11 +359,6 @@ impl Gravity {
 }
 
 impl Body {
-    /// Length and height of the rectangle, m.
-    pub fn size_m(&self) -> [f64; 2] {
-        [self.x_m[1] - self.x_m[0], self.y_m[1] - self.y_m[0]]
-    }
-
     /// Particles per grid cell.
     pub fn particles_per_cell(&self, grid: &Grid) -> u32 {
         self.particles_per_cell.unwrap_or(grid.particles_per_cell)
@@ -339,7 +370,7 @@ impl Body {
     }
 
     /// The lattice that fills the rectangle: as many particles along each side as come nearest to the wanted spacing, and their
-    /// distances, which fill the side to its end. None along a side that is shorter than the spacing.
+    /// distances, which fill the side to its end. None along a side that is shorter than the spacing. Of other shapes it says nothing.
     pub fn lattice(&self, grid: &Grid) -> Lattice {
         let wanted = self.particle_spacing_m(grid);
         let sides = self.size_m().map(|length| {
@@ -365,6 +396,22 @@ impl Body {
     pub fn particle_counts(&self, grid: &Grid) -> [f64; 2] {
         self.lattice(grid).counts
     }
+
+    /// Number of particles, a whole number: of a rectangle those of its lattice, of other shapes as many as come nearest to the wanted
+    /// spacing, and at least one.
+    pub fn particle_count(&self, grid: &Grid) -> f64 {
+        if self.rectangle().is_some() {
+            let [nx, ny] = self.particle_counts(grid);
+            return nx * ny;
+        }
+        nearest_whole(self.area_m2() / self.particle_spacing_m(grid).powi(2)).max(1.0)
+    }
+}
+
+/// The nearest whole number; the lower one of what lies in the middle between two but for round-off, so that a shape that is moved or turned
+/// is cut into the same pieces.
+pub fn nearest_whole(number: f64) -> f64 {
+    (number - 1.0e-6).round()
 }
 
 /// Spacings that fill a side to this share of it count as filling it: cell sizes are written with few digits, 0.0133333 m for a
@@ -391,6 +438,7 @@ impl Case {
         for boundary in &mut self.boundaries {
             boundary.resolve(&self.grid);
         }
+        self.bodies.iter_mut().for_each(Body::resolve);
         self.contacts.iter_mut().for_each(BodyContact::resolve);
     }
 
@@ -401,7 +449,7 @@ impl Case {
 
     /// Number of particles at the start.
     pub fn particle_count_estimate(&self) -> f64 {
-        self.bodies.iter().map(|body| body.particle_counts(&self.grid)).map(|[nx, ny]| nx * ny).sum()
+        self.bodies.iter().map(|body| body.particle_count(&self.grid)).sum()
     }
 
     /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`. Waves in
@@ -410,7 +458,7 @@ impl Case {
         let speed = |body: &Body| {
             let explicit = self.materials.get(&body.material).filter(|_| body.integration == Integration::Explicit);
             let wave = explicit.map_or(0.0, Material::p_wave_speed_m_per_s);
-            wave + body.velocity_m_per_s[0].hypot(body.velocity_m_per_s[1])
+            wave + body.fastest_m_per_s()
         };
         let fastest = self.bodies.iter().map(speed).fold(0.0, f64::max);
         let step = self.numerics.cfl * self.grid.spacing_m / fastest;

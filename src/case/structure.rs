@@ -11,8 +11,10 @@ const TABLES: [&str; 9] =
 const TABLES_OF_STAGES: [&str; 3] = ["settle", "tilt", "run"];
 const LISTS: [&str; 3] = ["bodies", "boundaries", "contacts"];
 const LISTS_OF_GAUGES: [&str; 1] = ["windows"];
-const PAIRS: [&str; 8] =
-    ["origin_m", "x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "window_x_m", "window_y_m"];
+const PAIRS: [&str; 9] =
+    ["origin_m", "x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "centre_m", "window_x_m", "window_y_m"];
+/// Lists of pairs: corners, and the rows of a gradient.
+const LISTS_OF_PAIRS: [&str; 3] = ["polygon_m", "points_m", "velocity_gradient_per_s"];
 
 /// Tables, lists of tables and pairs of numbers of a case that are something else.
 pub fn misplaced(root: &DeTable<'_>) -> Vec<Problem> {
@@ -137,6 +139,9 @@ fn pairs(path: &KeyPath, table: &DeTable<'_>, problems: &mut Vec<Problem>) {
     for (key, value) in table.iter() {
         let key = key.get_ref().as_ref();
         let count = value.get_ref().as_array().map_or(2, |array| array.len());
+        if LISTS_OF_PAIRS.contains(&key) {
+            list_of_pairs(&path.key(key), value.get_ref(), problems);
+        }
         if PAIRS.contains(&key) && count != 2 {
             let path = path.key(key);
             problems.push(Problem {
@@ -148,4 +153,26 @@ fn pairs(path: &KeyPath, table: &DeTable<'_>, problems: &mut Vec<Problem>) {
             });
         }
     }
+}
+
+/// A list of pairs of numbers, and a gradient, which has two.
+fn list_of_pairs(path: &KeyPath, value: &DeValue<'_>, problems: &mut Vec<Problem>) {
+    let Some(rows) = value.as_array() else { return };
+    let is_pair = |row: &DeValue<'_>| row.as_array().is_some_and(|pair| pair.len() == 2);
+    let wrong = rows.iter().position(|row| !is_pair(row.get_ref()));
+    let gradient = path.last_key() == "velocity_gradient_per_s";
+    let (path, what) = match wrong {
+        Some(row) => (path.index(row), format!("{} is not a pair of numbers", path.index(row))),
+        None if gradient && rows.len() != 2 => (path.clone(), format!("{path} has {} rows instead of two", rows.len())),
+        None => return,
+    };
+    let example = if gradient { "[[0.0, 5.0], [0.0, 0.0]]" } else { "[[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]" };
+    let key = path.last_key().to_owned();
+    problems.push(Problem {
+        path,
+        what,
+        value: String::new(),
+        allowed: if gradient { "two rows of two numbers" } else { "a list of pairs of numbers" }.to_owned(),
+        fix: format!("write pairs of numbers: {key} = {example}"),
+    });
 }

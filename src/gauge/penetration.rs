@@ -66,7 +66,8 @@ pub fn of_boundaries(simulation: &Simulation) -> (f64, usize) {
     let solid = |b: &Boundary| !b.is_gone() && b.friction != Friction::Bonded;
     for (index, b) in simulation.boundaries().iter().enumerate().filter(|(_, b)| solid(b)) {
         // What lies in front of its face is in no boundary.
-        beside(simulation, b, 0.0, |body| b.acts_on(&[body])).for_each(|near| {
+        let reach = if b.chain().is_some() { f64::INFINITY } else { 0.0 };
+        beside(simulation, b, reach, |body| b.acts_on(&[body])).for_each(|near| {
             let depth = seeded::times(Seed::GaugePenetration, b.depth(near.x()));
             if depth > deepest.0 {
                 deepest = (depth, index);

@@ -124,7 +124,8 @@ impl Experiment {
         let level = |x: &[f64; 2]| x[1] * cos - x[0] * sin;
         let flows = |name: &str| scene::index(&self.case, name).is_none_or(|k| !self.structures().contains(&k));
         let bodies = self.case.bodies.iter().filter(|b| !b.weightless && flows(&b.name));
-        let corners = bodies.flat_map(|b| b.corners_m());
+        let down = [sin, -cos];
+        let corners = bodies.filter_map(|b| Some(b.drawing()?.farthest_m(down)));
         let foot = self.barrier().map(|g| g.face(&self.simulation).foot().into());
         let lower = |a: [f64; 2], b: [f64; 2]| if level(&b) < level(&a) { b } else { a };
         let found = foot.into_iter().chain(corners).reduce(lower).filter(|_| !seeded::is(Seed::RunDatum));

@@ -300,7 +300,8 @@ fn structure(case: &Case, simulation: &Simulation, name: &str) -> Option<Structu
     let (body, face) = (scene::index(case, name)?, scene::barrier_face(case, name)?);
     let b = &case.bodies[body];
     let counts = b.particle_counts(&case.grid).map(|n| n as usize);
-    Some(StructureGauge::new(simulation, body, face, counts, b.rotation_deg.to_radians()))
+    let rotation = b.rectangle()?.rotation_deg;
+    Some(StructureGauge::new(simulation, body, face, counts, rotation.to_radians()))
 }
 
 /// What follows in the names of a barrier's files, by its number: nothing for the first, else its name.

@@ -123,7 +123,7 @@ fn shares_of_energy_know_no_origin_without_a_barrier() {
         let shift = |x: &mut f64| *x += by;
         let pair = |x: &mut [f64; 2]| x.iter_mut().for_each(shift);
         [&mut case.domain.x_m, &mut case.domain.y_m].into_iter().for_each(pair);
-        case.bodies.iter_mut().flat_map(|b| [&mut b.x_m, &mut b.y_m]).for_each(pair);
+        case.bodies.iter_mut().flat_map(|b| [&mut b.x_m, &mut b.y_m]).flatten().for_each(pair);
         for b in &mut case.boundaries {
             b.point_m.iter_mut().chain(&mut b.foot_m).for_each(pair);
         }

@@ -14,6 +14,7 @@ mod deposit;
 mod experiment;
 mod figures;
 pub mod files;
+mod filling;
 mod gauges;
 #[cfg(test)]
 mod invariance_tests;

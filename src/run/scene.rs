@@ -4,6 +4,7 @@
 //! has words of its own, and makes the solver's type of both; the head of `case/boundary.rs` says why. Here is what needs the rest of the
 //! case besides: the law of a material, the shape of a boundary on its grid, bodies by their names.
 
+use super::filling;
 use crate::body::{Body, Particle};
 use crate::boundary::{Boundary, Friction};
 use crate::case::{self, Case};
@@ -40,42 +41,78 @@ pub fn gravity(case: &Case, angle_deg: f64) -> [f64; 2] {
 
 fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
     let material = &case.materials[&b.material];
-    let case::Lattice { counts: [nx, ny], spacing_m: [along, across] } = b.lattice(&case.grid);
-    let volume = along * across * case.grid.thickness_m;
-    let (sin, cos) = (libm::sin(b.rotation_deg.to_radians()), libm::cos(b.rotation_deg.to_radians()));
-    let mut particles = Vec::with_capacity((nx * ny) as usize);
-    for i in 0..nx as usize {
-        for j in 0..ny as usize {
-            let id = particles.len() as u32;
-            let moved =
-                |axis: u64| b.jitter * (2.0 * uniform(u64::from(b.jitter_seed), 2 * u64::from(id) + axis) - 1.0);
-            let middle = if seeded::is(Seed::CasePlace) { 0.6 } else { 0.5 };
-            let (u, v) = ((i as f64 + 0.5 + moved(0)) * along, (j as f64 + middle + moved(1)) * across);
-            let x = [b.x_m[0] + cos * u - sin * v, b.y_m[0] + sin * u + cos * v];
-            let v = b.velocity_m_per_s.map(|v| seeded::times(Seed::CaseVelocity, v));
-            particles.push(Particle { v, ..Particle::at_rest(id, x) });
-        }
-    }
+    let Filled { places, volume, spacing } = filled(case, b);
+    let centre = b.drawing().map_or([0.0; 2], |d| d.centroid_m());
+    let particle = |(id, x): (usize, [f64; 2])| {
+        let v = b.velocity_at(x, centre).map(|v| seeded::times(Seed::CaseVelocity, v));
+        Particle { v, ..Particle::at_rest(id as u32, x) }
+    };
+    let particles = places.into_iter().enumerate().map(particle).collect();
     let body = Body {
         name: b.name.clone(),
         law: law(material),
         point_mass: seeded::times(Seed::CaseDensity, material.density_kg_per_m3) * volume,
         point_volume: volume,
         points_per_direction: f64::from(b.particles_per_cell(&case.grid)).sqrt().round() as usize,
-        // The side of a square of the same area; exact where the spacing fills both sides.
-        point_spacing: if along == across { along } else { (along * across).sqrt() },
+        point_spacing: spacing,
         weightless: b.weightless && !seeded::is(Seed::CaseWeightless),
         between_side_walls: case.side_walls.act_on(&b.name),
         implicit: b.integration == case::Integration::Implicit,
-        mesh: (b.kinematics == case::Kinematics::TotalLagrangian).then(|| mesh(case, b)),
+        mesh: (b.kinematics == case::Kinematics::TotalLagrangian).then(|| mesh(case, b)).flatten(),
     };
     (body, particles)
 }
 
-/// The reference configuration of a body, with edges of elements at its clamps.
-fn mesh(case: &Case, b: &case::Body) -> Mesh {
-    let corner = [b.x_m[0], b.y_m[0]];
-    let axes = [0.0, 90.0].map(|more| direction(b.rotation_deg + more));
+/// The particles of a body at the start.
+struct Filled {
+    /// Places, m.
+    places: Vec<[f64; 2]>,
+    /// Volume of one, m3.
+    volume: f64,
+    /// Their distance: the side of a square of the same area, m.
+    spacing: f64,
+}
+
+fn filled(case: &Case, b: &case::Body) -> Filled {
+    let moved = |id: u32| {
+        let share = |axis: u64| b.jitter * (2.0 * uniform(u64::from(b.jitter_seed), 2 * u64::from(id) + axis) - 1.0);
+        [share(0), share(1)]
+    };
+    let pieces = |area: f64, places: Vec<[f64; 2]>| {
+        let own = area / places.len() as f64;
+        Filled { volume: own * case.grid.thickness_m, spacing: own.sqrt(), places }
+    };
+    let count = || b.particle_count(&case.grid) as usize;
+    match b.drawing() {
+        Some(case::Drawing::Polygon(p)) => pieces(b.area_m2(), filling::polygon(&p, count(), b.rotation_deg, &moved)),
+        Some(case::Drawing::Ring(r)) => pieces(b.area_m2(), filling::ring(&r, count(), b.rotation_deg, &moved)),
+        Some(case::Drawing::Rectangle(r)) => lattice(case, b, &r, moved),
+        None => Filled { places: Vec::new(), volume: 0.0, spacing: 0.0 },
+    }
+}
+
+/// The lattice in a rectangle.
+fn lattice(case: &Case, b: &case::Body, r: &case::Rectangle, moved: impl Fn(u32) -> [f64; 2]) -> Filled {
+    let case::Lattice { counts: [nx, ny], spacing_m: [along, across] } = b.lattice(&case.grid);
+    let (sin, cos) = (libm::sin(r.rotation_deg.to_radians()), libm::cos(r.rotation_deg.to_radians()));
+    let mut places = Vec::with_capacity((nx * ny) as usize);
+    for i in 0..nx as usize {
+        for j in 0..ny as usize {
+            let [right, up] = moved(places.len() as u32);
+            let middle = if seeded::is(Seed::CasePlace) { 0.6 } else { 0.5 };
+            let (u, v) = ((i as f64 + 0.5 + right) * along, (j as f64 + middle + up) * across);
+            places.push([r.corner_m[0] + cos * u - sin * v, r.corner_m[1] + sin * u + cos * v]);
+        }
+    }
+    let volume = along * across * case.grid.thickness_m;
+    // Exact where the spacing fills both sides.
+    Filled { places, volume, spacing: if along == across { along } else { (along * across).sqrt() } }
+}
+
+/// The reference configuration of a body, with edges of elements at its clamps; `None` of one that is no rectangle.
+fn mesh(case: &Case, b: &case::Body) -> Option<Mesh> {
+    let case::Rectangle { corner_m: corner, size_m, rotation_deg } = b.rectangle()?;
+    let axes = [0.0, 90.0].map(|more| direction(rotation_deg + more));
     let mut cuts = [Vec::new(), Vec::new()];
     for boundary in case.boundaries.iter().filter(|o| o.acts_on(&b.name) && o.contact == case::ContactKind::Bonded) {
         let Some(case::Shape::Plane { point_m, normal_deg }) = boundary.shape(&case.grid) else { continue };
@@ -84,7 +121,7 @@ fn mesh(case: &Case, b: &case::Body) -> Mesh {
         let d = usize::from(axes[1].dot(&n).abs() > axes[0].dot(&n).abs());
         cuts[d].push((Vector2::from(point_m) - Vector2::from(corner)).dot(&axes[d]));
     }
-    Mesh::rectangle(corner, b.rotation_deg.to_radians(), b.size_m(), case.grid.spacing_m, [&cuts[0], &cuts[1]])
+    Some(Mesh::rectangle(corner, rotation_deg.to_radians(), size_m, case.grid.spacing_m, [&cuts[0], &cuts[1]]))
 }
 
 /// A number of \[0, 1\) from a seed and a counter: the same on every machine (SplitMix64; Steele, Lea and Flood 2014).
@@ -118,16 +155,19 @@ fn law(material: &case::Material) -> AnyLaw {
 /// which it is in contact, from where its highest clamp holds it (else from its lower edge) along its own y axis.
 pub fn barrier_face(case: &Case, name: &str) -> Option<Boundary> {
     let body = case.bodies.iter().find(|b| b.name == name)?;
-    let [length, height] = body.size_m();
-    let (across, up) = (direction(body.rotation_deg), direction(body.rotation_deg + 90.0));
-    let centre = |b: &case::Body| b.corners_m().map(Vector2::from).iter().sum::<Vector2<f64>>() / 4.0;
+    let case::Rectangle { corner_m, size_m: [length, height], rotation_deg } = body.rectangle()?;
+    let (across, up) = (direction(rotation_deg), direction(rotation_deg + 90.0));
+    let centre = |b: &case::Body| match b.drawing() {
+        Some(case::Drawing::Rectangle(r)) => r.corners_m().map(Vector2::from).iter().sum::<Vector2<f64>>() / 4.0,
+        other => Vector2::from(other.map_or([0.0; 2], |d| d.centroid_m())),
+    };
     let partner = |b: &&case::Body| {
         b.name != name
             && !case.gauges.barrier_names().any(|other| other == b.name)
             && case.contacts.iter().any(|c| c.bodies.contains(&b.name) && c.bodies.iter().any(|n| n == name))
     };
     let beside: f64 = case.bodies.iter().filter(partner).map(|b| (centre(b) - centre(body)).dot(&across)).sum();
-    let corner = Vector2::new(body.x_m[0], body.y_m[0]) + across * if beside > 0.0 { length } else { 0.0 };
+    let corner = Vector2::from(corner_m) + across * if beside > 0.0 { length } else { 0.0 };
     let clamps = case.boundaries.iter().filter(|b| b.acts_on(name) && b.contact == case::ContactKind::Bonded);
     let held = clamps.filter_map(|b| {
         let case::Shape::Plane { point_m, normal_deg } = b.shape(&case.grid)? else { return None };
@@ -160,6 +200,7 @@ fn boundary(case: &Case, b: &case::Boundary) -> Option<Boundary> {
         }
         case::Shape::Wall(w) => wall(w),
         case::Shape::Gate(w, opening) => wall(w).gate(opening),
+        case::Shape::Terrain(chain) => Boundary::terrain(&b.name, chain),
     };
     let boundary = match b.slip() {
         Some([length, peak]) => boundary.mobilised(seeded::times(Seed::CaseSlipLength, length), peak),
@@ -258,8 +299,8 @@ mod tests {
         second.name = "second".into();
         let [c, s] = direction(second.rotation_deg).into();
         // Far to its right: as if it were what presses on the barrier's back.
-        second.x_m = second.x_m.map(|x| x + 3.0 * c);
-        second.y_m = second.y_m.map(|y| y + 3.0 * s);
+        second.x_m = second.x_m.map(|x| x.map(|x| x + 3.0 * c));
+        second.y_m = second.y_m.map(|y| y.map(|y| y + 3.0 * s));
         contact.bodies = vec!["barrier".into(), "second".into()];
         case.bodies.push(second);
         case.contacts.push(contact);

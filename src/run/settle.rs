@@ -9,7 +9,6 @@ use super::stage::{RunError, Stage};
 use crate::case::SettleScale;
 use crate::gauge::flow;
 use crate::seeded::{self, Seed};
-use crate::space::dot;
 
 /// Steps between calls of the progress function and looks at the residual.
 const STEPS_PER_LOOK: u64 = 25;
@@ -90,8 +89,9 @@ impl Experiment {
                 // Against the gravity in which it settles first, whichever way the axes lie.
                 let down = self.case.gravity.settle_inclination_or_default_deg().to_radians();
                 let up = [-libm::sin(down), libm::cos(down)];
-                let heights = || chosen().flat_map(|k| bodies[k].corners_m().map(|c| dot(c, up)));
-                heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min)
+                let extents = || chosen().filter_map(|k| Some(bodies[k].drawing()?.extent_m(up)));
+                let [low, high] = [0, 1].map(|end| extents().map(move |e| e[end]));
+                high.fold(f64::NEG_INFINITY, f64::max) - low.fold(f64::INFINITY, f64::min)
             }
         };
         (height, slowest)

@@ -39,6 +39,11 @@ faults! {
     CaseWeightless, "case.weightless", Dropped, "that a body has no weight";
     CaseFoot, "case.foot", Wrong, "foot of a wall, a tenth of a cell too far along x";
     CasePlace, "case.place", Wrong, "points of a body, a tenth of their spacing too high";
+    CaseFilling, "case.filling", Wrong, "points of a polygon or a ring, a tenth of their piece too far";
+    CaseBodyFoot, "case.body_foot", Wrong, "foot of a body, a tenth of its thickness too far";
+    CaseSpin, "case.spin", Times(1.03), "rotation of a body at the start";
+    CaseGradient, "case.gradient", Exchanged, "shears of the velocity of a body at the start";
+    CaseTerrain, "case.terrain", Exchanged, "frictions of the pieces of a terrain, first and last";
     CasePic, "case.pic", Dropped, "share of PIC";
 
     RunDamping, "run.damping", Wrong, "damping of the settling stays on";

@@ -8,6 +8,7 @@ mod forces;
 mod motion;
 mod slip;
 mod surface;
+mod terrain;
 
 use crate::boundary::Boundary;
 use crate::constitutive::{AnyLaw, LinearElastic};

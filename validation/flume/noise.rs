@@ -72,7 +72,7 @@ fn most_dissipated(case: &str) -> Result<f64, Failure> {
     let case = parse(&text, case).map_err(|e| Failure::Record(e.to_string()))?.case;
     let slope = case.gravity.inclination_deg.to_radians();
     let foot = case.boundaries.iter().find_map(|b| b.foot_m.filter(|_| b.name == "barrier")).unwrap_or_default();
-    let [[x0, x1], [y0, y1]] = [case.bodies[0].x_m, case.bodies[0].y_m];
+    let [[x0, x1], [y0, y1]] = [case.bodies[0].x_m, case.bodies[0].y_m].map(Option::unwrap_or_default);
     let released = (foot[0] - 0.5 * (x0 + x1)) * libm::sin(slope) + 0.5 * (y0 + y1) * libm::cos(slope);
     Ok(1.0 - least_mean_height((x1 - x0) * (y1 - y0), slope) / released)
 }

@@ -10,7 +10,7 @@ mod reading;
 mod scatter;
 mod scenes;
 mod tables;
-mod transform;
+pub(crate) mod transform;
 
 use super::{Fault, FaultKind, Outcome, Rung};
 use crate::RungFailure;

@@ -1,6 +1,6 @@
 //! Transformations of a case: what is written in it, moved, turned, mirrored, scaled or written in another order.
 
-use checkdam::case::{Body, Boundary, Case, MaterialSide};
+use checkdam::case::{Body, Boundary, Case, MaterialSide, Rectangle};
 
 /// Factors of mass (with the density), length, time, and of the width alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,13 +72,17 @@ pub fn scaled(case: &Case, by: &Factors) -> Case {
         stresses.into_iter().flatten().for_each(|x| scale(by.of("_pa"), x));
     }
     for body in &mut case.bodies {
-        lengths(&mut body.x_m);
-        lengths(&mut body.y_m);
+        body.x_m.iter_mut().chain(&mut body.y_m).for_each(|x| lengths(x));
+        places(body).for_each(|x| lengths(x));
+        let own = [&mut body.radius_m, &mut body.inner_radius_m, &mut body.height_m, &mut body.thickness_m];
+        own.into_iter().flatten().for_each(|x| scale(length, x));
         body.velocity_m_per_s.iter_mut().for_each(|v| scale(speed, v));
+        body.spin_rad_per_s.iter_mut().for_each(|w| scale(1.0 / time, w));
+        body.velocity_gradient_per_s.iter_mut().flatten().flatten().for_each(|g| scale(1.0 / time, g));
         body.mass_kg.iter_mut().for_each(|m| scale(by.of("_kg"), m));
     }
     for b in &mut case.boundaries {
-        b.point_m.iter_mut().chain(&mut b.foot_m).for_each(|x| lengths(x));
+        b.point_m.iter_mut().chain(&mut b.foot_m).chain(b.points_m.iter_mut().flatten()).for_each(|x| lengths(x));
         let own = [&mut b.height_m, &mut b.thickness_m, &mut b.slip_length_m, &mut b.opening_m];
         own.into_iter().flatten().for_each(|x| scale(length, x));
         b.lift_speed_m_per_s.iter_mut().for_each(|v| scale(speed, v));
@@ -111,11 +115,12 @@ pub fn moved(case: &Case, by: [f64; 2], with_the_grid: bool) -> Case {
     along(0, &mut case.domain.x_m);
     along(1, &mut case.domain.y_m);
     for body in &mut case.bodies {
-        along(0, &mut body.x_m);
-        along(1, &mut body.y_m);
+        body.x_m.iter_mut().for_each(|x| along(0, x));
+        body.y_m.iter_mut().for_each(|y| along(1, y));
+        places(body).for_each(both);
     }
     for b in &mut case.boundaries {
-        b.point_m.iter_mut().chain(&mut b.foot_m).for_each(both);
+        b.point_m.iter_mut().chain(&mut b.foot_m).chain(b.points_m.iter_mut().flatten()).for_each(both);
     }
     along(0, &mut case.gauges.stations_m);
     case.gauges.window_x_m.iter_mut().for_each(|x| along(0, x));
@@ -127,11 +132,28 @@ pub fn moved(case: &Case, by: [f64; 2], with_the_grid: bool) -> Case {
     case
 }
 
-/// A corner of a body and its length along its own x axis as they are written.
-fn place(body: &mut Body, corner: [f64; 2]) {
-    let [length, height] = [body.x_m[1] - body.x_m[0], body.y_m[1] - body.y_m[0]];
-    body.x_m = [corner[0], corner[0] + length];
-    body.y_m = [corner[1], corner[1] + height];
+/// The places of a body that is no rectangle written by its edges.
+fn places(body: &mut Body) -> impl Iterator<Item = &mut [f64; 2]> {
+    body.polygon_m.iter_mut().flatten().chain(&mut body.centre_m).chain(&mut body.foot_m)
+}
+
+/// A rectangle that is written by its edges, if the body is one.
+fn edges(body: &Body) -> Option<Rectangle> {
+    body.rectangle().filter(|_| body.x_m.is_some())
+}
+
+/// A corner of a rectangle and its lengths as they are written.
+fn place(body: &mut Body, corner: [f64; 2], [length, height]: [f64; 2]) {
+    body.x_m = Some([corner[0], corner[0] + length]);
+    body.y_m = Some([corner[1], corner[1] + height]);
+}
+
+/// The other side.
+fn opposite(side: Option<MaterialSide>) -> Option<MaterialSide> {
+    Some(match side.unwrap_or_default() {
+        MaterialSide::Left => MaterialSide::Right,
+        MaterialSide::Right => MaterialSide::Left,
+    })
 }
 
 /// Right and left exchanged.
@@ -143,21 +165,32 @@ pub fn mirrored(case: &Case) -> Case {
     case.grid.origin_m[0] *= -1.0;
     swap(&mut case.domain.x_m);
     for body in &mut case.bodies {
-        // The lower right corner becomes the lower left one.
-        let corner = body.corners_m()[1];
-        place(body, [-corner[0], corner[1]]);
-        body.rotation_deg *= -1.0;
+        if let Some(r) = edges(body) {
+            // The lower right corner becomes the lower left one.
+            let corner = r.corners_m()[1];
+            place(body, [-corner[0], corner[1]], r.size_m);
+            body.rotation_deg *= -1.0;
+        } else if body.foot_m.is_some() {
+            body.inclination_deg = Some(180.0 - body.inclination_deg.unwrap_or(90.0));
+            body.material_side = opposite(body.material_side);
+        } else {
+            // The axis of its columns or sectors becomes its mirror image, not that turned round.
+            body.rotation_deg = 180.0 - body.rotation_deg;
+        }
+        places(body).for_each(|x| x[0] *= -1.0);
         body.velocity_m_per_s[0] *= -1.0;
+        body.spin_rad_per_s.iter_mut().for_each(|w| *w *= -1.0);
+        body.velocity_gradient_per_s.iter_mut().for_each(|[[_, xy], [yx, _]]| (*xy, *yx) = (-*xy, -*yx));
     }
     for b in &mut case.boundaries {
-        b.point_m.iter_mut().chain(&mut b.foot_m).for_each(|x| x[0] *= -1.0);
+        let points = b.points_m.iter_mut().flatten();
+        b.point_m.iter_mut().chain(&mut b.foot_m).chain(points).for_each(|x| x[0] *= -1.0);
         b.normal_deg.iter_mut().for_each(|a| *a = 180.0 - *a);
         if b.foot_m.is_some() {
             b.inclination_deg = Some(180.0 - b.inclination_deg.unwrap_or(90.0));
-            b.material_side = Some(match b.material_side.unwrap_or_default() {
-                MaterialSide::Left => MaterialSide::Right,
-                MaterialSide::Right => MaterialSide::Left,
-            });
+        }
+        if b.foot_m.is_some() || b.points_m.is_some() {
+            b.material_side = opposite(b.material_side);
         }
     }
     case.gauges.stations_m.iter_mut().for_each(|x| *x *= -1.0);
@@ -178,12 +211,25 @@ pub fn turned(case: &Case, angle_deg: f64) -> Case {
     let reach = ends.iter().map(|e| e[0].abs().max(e[1].abs())).fold(0.0, f64::hypot);
     (case.domain.x_m, case.domain.y_m) = ([-reach, reach], [-reach, reach]);
     for body in &mut case.bodies {
-        place(body, turn([body.x_m[0], body.y_m[0]]));
-        body.rotation_deg += angle_deg;
+        if let Some(r) = edges(body) {
+            place(body, turn(r.corner_m), r.size_m);
+        }
+        if body.foot_m.is_some() {
+            body.inclination_deg = Some(body.inclination_deg.unwrap_or(90.0) + angle_deg);
+        } else {
+            body.rotation_deg += angle_deg;
+        }
+        places(body).for_each(|x| *x = turn(*x));
         body.velocity_m_per_s = turn(body.velocity_m_per_s);
+        // R G R^T: its columns turned, then its rows.
+        body.velocity_gradient_per_s.iter_mut().for_each(|g| {
+            let [a, b] = [turn([g[0][0], g[1][0]]), turn([g[0][1], g[1][1]])];
+            *g = [turn([a[0], b[0]]), turn([a[1], b[1]])];
+        });
     }
     for b in &mut case.boundaries {
-        b.point_m.iter_mut().chain(&mut b.foot_m).for_each(|x| *x = turn(*x));
+        let points = b.points_m.iter_mut().flatten();
+        b.point_m.iter_mut().chain(&mut b.foot_m).chain(points).for_each(|x| *x = turn(*x));
         b.normal_deg.iter_mut().for_each(|a| *a += angle_deg);
         if b.foot_m.is_some() {
             b.inclination_deg = Some(b.inclination_deg.unwrap_or(90.0) + angle_deg);
@@ -237,10 +283,15 @@ pub fn renamed(case: &Case) -> Case {
 pub fn in_three(case: &Case, row: f64, column: f64) -> Case {
     let mut case = case.clone();
     let whole = case.bodies.remove(0);
-    let part =
-        |name: &str, x_m: [f64; 2], y_m: [f64; 2]| Body { name: name.into(), x_m, y_m, mass_kg: None, ..whole.clone() };
-    let ([left, right], [low, high]) = (whole.x_m, whole.y_m);
-    case.bodies.push(part("upper", whole.x_m, [row, high]));
+    let part = |name: &str, x: [f64; 2], y: [f64; 2]| Body {
+        name: name.into(),
+        x_m: Some(x),
+        y_m: Some(y),
+        mass_kg: None,
+        ..whole.clone()
+    };
+    let (Some([left, right]), Some([low, high])) = (whole.x_m, whole.y_m) else { return case };
+    case.bodies.push(part("upper", [left, right], [row, high]));
     case.bodies.push(part("right", [column, right], [low, row]));
     case.bodies.push(part("left", [left, column], [low, row]));
     case

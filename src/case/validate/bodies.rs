@@ -1,8 +1,9 @@
 //! Bodies: their names, materials and masses, and what they may not overlap.
 
+use super::shapes::has_geometry;
 use super::{Checker, text, text_up};
 use crate::case::boundary::{Boundary, ContactKind};
-use crate::case::geometry::{Penetration, penetration_of_rectangle};
+use crate::case::geometry::{Penetration, penetration};
 use crate::case::path::KeyPath;
 use crate::case::schema::{Body, Integration};
 use crate::case::suggest::did_you_mean;
@@ -23,9 +24,7 @@ impl Checker<'_> {
         self.names(&list, &names);
         for (index, body) in self.case.bodies.iter().enumerate() {
             let at = list.index(index);
-            self.interval(&at.key("x_m"), body.x_m);
-            self.interval(&at.key("y_m"), body.y_m);
-            self.angle(&at.key("rotation_deg"), body.rotation_deg, 360.0);
+            self.shape(&at, body);
             if let Some(count) = body.particles_per_cell {
                 self.particles_per_cell(&at, count);
             }
@@ -57,7 +56,8 @@ impl Checker<'_> {
             self.clear_of_boundaries(&at, body, &usable);
             let others = self.case.bodies[..index].iter().filter(|other| has_geometry(other));
             for other in others {
-                let penetration = penetration_of_rectangle(&body.corners_m(), &other.corners_m());
+                let (Some(own), Some(others)) = (body.drawing(), other.drawing()) else { continue };
+                let penetration = penetration(&own, &others);
                 self.overlap(&at, body, penetration, &format!("body `{}`", other.name));
             }
         }
@@ -102,26 +102,31 @@ impl Checker<'_> {
         let Some(material) = self.case.materials.get(&body.material) else {
             return;
         };
-        let [length, height] = body.size_m();
         let (density, thickness) = (material.density_kg_per_m3, self.case.grid.thickness_m);
-        let actual = density * length * height * thickness;
-        let usable = [length, height, density, thickness, mass].iter().all(|x| *x > 0.0) && actual.is_finite();
+        let [length, height] = body.size_m();
+        // Of a rectangle as it always was, to the last bit.
+        let (area, actual) = match body.rectangle() {
+            Some(_) => (length * height, density * length * height * thickness),
+            None => (body.area_m2(), density * body.area_m2() * thickness),
+        };
+        let usable = has_geometry(body) && [density, thickness, mass].iter().all(|x| *x > 0.0) && actual.is_finite();
         if usable && (mass - actual).abs() > MASS_TOLERANCE * actual {
             let what = format!(
                 "{path} = {} differs from density x area x thickness = {} x {} x {} = {} kg",
                 text(mass),
                 text(density),
-                text(length * height),
+                text(area),
                 text(thickness),
                 text(actual),
             );
-            let top = rounded(body.y_m[0] + mass / (density * length * thickness), height, f64::round);
+            let edge = body.y_m.map_or(String::new(), |[low, _]| {
+                let top = rounded(low + mass / (density * length * thickness), height, f64::round);
+                format!(", or y_m = [{low}, {top}]")
+            });
             let fix = format!(
-                "materials.{}.density_kg_per_m3 = {}, or y_m = [{}, {}], or leave mass_kg out",
+                "materials.{}.density_kg_per_m3 = {}{edge}, or leave mass_kg out",
                 body.material,
-                text(mass / (length * height * thickness)),
-                body.y_m[0],
-                top,
+                text(mass / (area * thickness)),
             );
             self.problem(&path, what, &mass, "equal to 0.1 %", &fix);
         }
@@ -130,15 +135,17 @@ impl Checker<'_> {
     fn inside_domain(&mut self, at: &KeyPath, body: &Body) {
         let domain = &self.case.domain;
         for (axis, key, [low, high]) in [(0, "x_m", domain.x_m), (1, "y_m", domain.y_m)] {
-            let reach = body.corners_m().map(|corner| corner[axis]);
-            let least = reach.iter().copied().fold(f64::INFINITY, f64::min);
-            let greatest = reach.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let Some(drawing) = body.drawing() else { return };
+            let [least, greatest] = drawing.extent_m([[1.0, 0.0], [0.0, 1.0]][axis]);
             let outside = (low - least).max(greatest - high);
             if low < high && outside > OVERLAP_TOLERANCE_M {
                 let what = format!("body `{}` reaches {} m out of the domain", body.name, text(outside));
                 let allowed = format!("inside domain.{key} = [{}, {}]", text(low), text(high));
-                let edges = if axis == 0 { body.x_m } else { body.y_m };
-                self.problem(&at.key(key), what, &edges, &allowed, "move the body, or enlarge the domain");
+                let fix = "move the body, or enlarge the domain";
+                match if axis == 0 { body.x_m } else { body.y_m } {
+                    Some(edges) => self.problem(&at.key(key), what, &edges, &allowed, fix),
+                    None => self.problem(&at.key(body.place_key()), what, &"", &allowed, fix),
+                }
             }
         }
     }
@@ -162,18 +169,23 @@ impl Checker<'_> {
         let axis = usize::from(way_out[1].abs() > way_out[0].abs());
         let (key, edges) = if axis == 0 { ("x_m", body.x_m) } else { ("y_m", body.y_m) };
         let straight = body.rotation_deg == 0.0 && way_out[axis].abs() == 1.0;
-        let fix = match cut(edges, way_out[axis] * depth_m) {
+        let fix = match edges.and_then(|edges| cut(edges, way_out[axis] * depth_m)) {
             Some([low, high]) if straight => format!("use {key} = [{low}, {high}]"),
             _ => {
                 let by = |component: f64| match component * depth_m {
                     0.0 => "0".to_owned(),
                     by => format!("{}{}", if by < 0.0 { "-" } else { "" }, text_up(by.abs())),
                 };
-                format!("move the body by [{}, {}] m", by(way_out[0]), by(way_out[1]))
+                // Of rectangles this is the way out; of other shapes it is one that may lead into something else.
+                let more = if body.rectangle().is_some() { "" } else { " or more, or draw it otherwise" };
+                format!("move the body by [{}, {}] m{more}", by(way_out[0]), by(way_out[1]))
             }
         };
         let allowed = format!("outside {other}, or touching it");
-        self.problem(&at.key(key), what, &edges, &allowed, &fix);
+        match edges {
+            Some(edges) => self.problem(&at.key(key), what, &edges, &allowed, &fix),
+            None => self.problem(&at.key(body.place_key()), what, &"", &allowed, &fix),
+        }
     }
 }
 
@@ -196,12 +208,4 @@ fn rounded(coordinate: f64, length: f64, round: fn(f64) -> f64) -> f64 {
     let whole = if (scaled - scaled.round()).abs() < 1.0e-6 { scaled.round() } else { round(scaled) };
     // Without the rounding of a division: 0.3, not 0.30000000000000004. An added 0 takes the sign from -0.
     format!("{whole}e-{digits}").parse().unwrap_or(coordinate) + 0.0
-}
-
-/// Whether the edges of a body are in order, so that it has corners and an area.
-pub(super) fn has_geometry(body: &Body) -> bool {
-    let [length, height] = body.size_m();
-    [length, height, 1.0 / length, 1.0 / height, body.rotation_deg.abs() + 1.0]
-        .iter()
-        .all(|x| x.is_finite() && *x > 0.0)
 }

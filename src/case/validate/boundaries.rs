@@ -120,13 +120,17 @@ impl Checker<'_> {
             BoundaryKind::Plane => (Required, Refused, Refused, "kind = \"plane\""),
             BoundaryKind::Wall => (Refused, Required, Optional, "kind = \"wall\""),
             BoundaryKind::Gate => (Refused, Required, Optional, "kind = \"gate\""),
+            BoundaryKind::Polyline => (Refused, Refused, Refused, "kind = \"polyline\""),
         };
+        let (points, side) =
+            if boundary.kind == BoundaryKind::Polyline { (Required, Optional) } else { (Refused, optional) };
+        self.field(at, ("points_m", &boundary.points_m), points, of);
         self.field(at, ("point_m", &boundary.point_m), plane, of);
         self.field(at, ("normal_deg", &boundary.normal_deg), plane, of);
         self.field(at, ("foot_m", &boundary.foot_m), wall, of);
         self.field(at, ("height_m", &boundary.height_m), wall, of);
         self.field(at, ("inclination_deg", &boundary.inclination_deg), optional, of);
-        self.field(at, ("material_side", &boundary.material_side), optional, of);
+        self.field(at, ("material_side", &boundary.material_side), side, of);
         self.field(at, ("thickness_m", &boundary.thickness_m), optional, of);
     }
 
@@ -139,7 +143,7 @@ impl Checker<'_> {
         };
         let path = at.key("friction");
         match boundary.friction {
-            None if need == Required => {
+            None if need == Required && boundary.friction_by_piece.is_none() => {
                 let fix = "add a line such as friction = 0.4, or use contact = \"smooth\"";
                 self.problem(&path, format!("{path} is missing"), &"", &format!("required by {of}"), fix);
             }
@@ -210,6 +214,7 @@ impl Checker<'_> {
         let (way, speed, height, of) = match (boundary.kind, opening) {
             (BoundaryKind::Plane, _) => (Refused, Refused, Refused, "kind = \"plane\""),
             (BoundaryKind::Wall, _) => (Refused, Refused, Refused, "kind = \"wall\""),
+            (BoundaryKind::Polyline, _) => (Refused, Refused, Refused, "kind = \"polyline\""),
             (BoundaryKind::Gate, OpeningKind::Vanish) => (Optional, Refused, Refused, "opening = \"vanish\""),
             (BoundaryKind::Gate, OpeningKind::Lift) => (Optional, Required, Refused, "opening = \"lift\""),
             (BoundaryKind::Gate, OpeningKind::Raise) => (Optional, Optional, Required, "opening = \"raise\""),
@@ -223,6 +228,7 @@ impl Checker<'_> {
 fn example(key: &str) -> &'static str {
     match key {
         "point_m" | "foot_m" => "[0.0, 0.0]",
+        "points_m" => "[[0.0, 0.4], [0.6, 0.1], [1.5, 0.0]]",
         "normal_deg" => "90",
         "height_m" => "0.6",
         "lift_speed_m_per_s" => "1.0",

@@ -1,6 +1,6 @@
 //! What a case would cost: particles, grid cells and time steps, refused before any memory is asked for.
 
-use super::bodies::has_geometry;
+use super::shapes::has_geometry;
 use super::{Checker, text, text_down, toml_text};
 use crate::case::path::KeyPath;
 use crate::case::schema::{Body, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS};
@@ -25,18 +25,24 @@ impl Checker<'_> {
         let counted = |body: &Body| has_geometry(body) && body.particles_per_cell(&case.grid) > 0;
         for (index, body) in case.bodies.iter().enumerate().filter(|(_, body)| counted(body)) {
             let at = KeyPath::top("bodies").index(index);
+            self.fillable(&at, body);
+            let Some(rectangle) = body.rectangle() else { continue };
             let spacing = body.particle_spacing_m(&case.grid);
             let [along, across] = body.particle_counts(&case.grid);
             let per_side = f64::from(body.particles_per_cell(&case.grid)).sqrt();
-            for (key, edges, count) in [("x_m", body.x_m, along), ("y_m", body.y_m, across)] {
+            let keys = if body.foot_m.is_some() { ["thickness_m", "height_m"] } else { ["x_m", "y_m"] };
+            let sides = keys.into_iter().zip(rectangle.size_m).zip([along, across]);
+            for ((key, side), count) in sides {
                 if count == 0.0 {
                     let what = format!("body `{}` is thinner than a particle", body.name);
                     let allowed = format!("sides of at least the particle spacing of {} m", text(spacing));
-                    let fix = format!(
-                        "enlarge the body, or use grid.spacing_m = {} or less",
-                        text_down((edges[1] - edges[0]) * per_side)
-                    );
-                    self.problem(&at.key(key), what, &edges, &allowed, &fix);
+                    let fix =
+                        format!("enlarge the body, or use grid.spacing_m = {} or less", text_down(side * per_side));
+                    let edges = if key == "x_m" { body.x_m } else { body.y_m.filter(|_| key == "y_m") };
+                    match edges {
+                        Some(edges) => self.problem(&at.key(key), what, &edges, &allowed, &fix),
+                        None => self.problem(&at.key(key), what, &side, &allowed, &fix),
+                    }
                 }
             }
         }
@@ -47,15 +53,12 @@ impl Checker<'_> {
         let (case, domain) = (self.case, &self.case.domain);
         let bodies = || case.bodies.iter().filter(|body| has_geometry(body));
         let spacing = case.grid.spacing_m;
-        let particles: f64 =
-            bodies().map(|body| body.particle_counts(&case.grid)).map(|[along, across]| along * across).sum();
+        let particles: f64 = bodies().map(|body| body.particle_count(&case.grid)).sum();
         let domain_area = (domain.x_m[1] - domain.x_m[0]) * (domain.y_m[1] - domain.y_m[0]);
         let cells = domain_area / spacing.powi(2);
 
-        let weighted_area: f64 = bodies()
-            .map(|body| (body.size_m(), f64::from(body.particles_per_cell(&case.grid))))
-            .map(|([length, height], per_cell)| length * height * per_cell)
-            .sum();
+        let weighted_area: f64 =
+            bodies().map(|body| body.area_m2() * f64::from(body.particles_per_cell(&case.grid))).sum();
         let for_particles = rounded_up((weighted_area / MAX_PARTICLES).sqrt());
         let for_cells = rounded_up((domain_area / MAX_GRID_CELLS).sqrt());
         let both = for_particles.max(for_cells);

@@ -1,7 +1,8 @@
 //! Cases that can be run and whose numbers would mean little: nothing holds the material, a barrier is loose or too thin for the
 //! grid, PIC takes the motion.
 
-use super::bodies::{MASS_TOLERANCE, has_geometry};
+use super::bodies::MASS_TOLERANCE;
+use super::shapes::has_geometry;
 use super::walls::narrow_openings;
 use super::{Problem, text, text_down, toml_text};
 use crate::case::boundary::{Boundary, ContactKind};
@@ -73,6 +74,7 @@ fn loose(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
 
 /// A square lattice that carries another mass than the body, by more than `mass_kg` may be off.
 fn filled_beside(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
+    body.rectangle()?;
     let ([length, height], lattice) = (body.size_m(), body.lattice(&case.grid));
     let filled: f64 = (0..2).map(|d| lattice.counts[d] * lattice.spacing_m[d]).product();
     let share = filled / (length * height);
@@ -91,13 +93,20 @@ fn thin(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
     let depth = length.min(height);
     let cells = depth / case.grid.spacing_m;
     let elastic = case.materials.get(&body.material).is_some_and(|m| m.drucker_prager().is_none());
-    let key = if length <= height { "x_m" } else { "y_m" };
+    let key = match (body.foot_m, length <= height) {
+        (None, true) => "x_m",
+        (None, false) => "y_m",
+        (Some(_), true) => "thickness_m",
+        (Some(_), false) => "height_m",
+    };
+    let value =
+        body.x_m.zip(body.y_m).map_or(toml_text(&depth), |(x, y)| toml_text(&if length <= height { x } else { y }));
     let least = if body.kinematics == Kinematics::TotalLagrangian { MESH_CELLS } else { STRUCTURE_CELLS };
     let few = is_barrier(case, body) && elastic && cells < least * (1.0 - 1.0e-9);
     few.then(|| Problem {
         path: at.key(key),
         what: format!("the barrier `{}` is {} cells thick", body.name, text(cells)),
-        value: toml_text(&if length <= height { body.x_m } else { body.y_m }),
+        value,
         allowed: format!("{} cells or more through a body that bends", text(least)),
         fix: format!("use grid.spacing_m = {} or less, or read only whether it holds", text_down(depth / least)),
     })

@@ -1,10 +1,11 @@
 //! What is measured: barriers, bases, stations, windows, snapshots.
 
-use super::bodies::has_geometry;
+use super::shapes::has_geometry;
 use super::{Checker, text};
 use crate::case::boundary::{BoundaryKind, MaterialSide};
 use crate::case::file_name;
 use crate::case::path::KeyPath;
+use crate::case::schema::Body;
 use crate::case::suggest::did_you_mean;
 
 /// Fewest rows of a table that is coarser than the numbers of the summary.
@@ -103,7 +104,8 @@ impl Checker<'_> {
             (corner[0] - wall.foot_m[0]) * normal[0] + (corner[1] - wall.foot_m[1]) * normal[1] > 0.0
         };
         let mut bodies = self.case.bodies.iter().filter(|b| boundary.acts_on(&b.name) && has_geometry(b)).peekable();
-        if bodies.peek().is_none() || bodies.any(|b| b.corners_m().iter().any(before)) {
+        let nearest = |b: &Body| b.drawing().map(|d| d.farthest_m(normal));
+        if bodies.peek().is_none() || bodies.any(|b| nearest(b).is_some_and(|place| before(&place))) {
             return;
         }
         let other = if wall.material_side == MaterialSide::Left { "right" } else { "left" };

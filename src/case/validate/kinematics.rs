@@ -21,6 +21,19 @@ impl Checker<'_> {
         let structure = self.case.contacts.iter().any(|c| named(c.structure_name()))
             || self.case.gauges.barrier_names().any(|name| name == body.name);
         let by_mesh = body.kinematics == Kinematics::TotalLagrangian;
+        if (structure || by_mesh) && body.rectangle().is_none() && body.place_key() != "x_m" {
+            let what = format!("body `{}` is no rectangle", body.name);
+            let needed_by =
+                if by_mesh { "kinematics = \"total_lagrangian\"" } else { "a barrier, or the structure of a contact" };
+            let allowed = format!("a rectangle for {needed_by}");
+            return self.problem(&at.key(body.place_key()), what, &"", &allowed, "draw it as a rectangle");
+        }
+        if by_mesh && body.turns_or_strains() {
+            let key = if body.spin_rad_per_s.is_some() { "spin_rad_per_s" } else { "velocity_gradient_per_s" };
+            let what = format!("{} is given with kinematics = \"total_lagrangian\"", at.key(key));
+            let allowed = "one velocity for a body by its mesh";
+            self.problem(&at.key(key), what, &"", allowed, "use velocity_m_per_s alone, or another kinematics");
+        }
         if (structure || by_mesh) && body.jitter > 0.0 {
             let allowed = "0 for a structure, whose faces are traced along the lattice of its particles";
             let fix = "leave it out; in a study: replicates.bodies = [...] without it";
@@ -73,12 +86,22 @@ impl Checker<'_> {
     /// The particles fill the rectangle that is drawn.
     fn multiples(&mut self, at: &KeyPath, body: &Body, needed_by: &str) {
         let spacing = body.particle_spacing_m(&self.case.grid);
-        for (key, [low, high]) in [("x_m", body.x_m), ("y_m", body.y_m)] {
+        let edges = match (body.x_m, body.y_m, body.rectangle()) {
+            (Some(x), Some(y), _) => [("x_m", x), ("y_m", y)],
+            (_, _, Some(r)) => [("thickness_m", [0.0, r.size_m[0]]), ("height_m", [0.0, r.size_m[1]])],
+            _ => return,
+        };
+        for (key, [low, high]) in edges {
             let count = (high - low) / spacing;
             let nearest = count.round().max(1.0);
             if count.is_finite() && (count - nearest).abs() > MULTIPLE * count.max(1.0) {
                 let what = format!("body `{}` is {} distances of its particles long", body.name, text(count));
                 let allowed = format!("a multiple of {} m, for {needed_by}", text(spacing));
+                if body.x_m.is_none() {
+                    let fix = format!("use {key} = {}", text(nearest * spacing));
+                    self.problem(&at.key(key), what, &high, &allowed, &fix);
+                    continue;
+                }
                 let fix = format!("use {key} = [{}, {}]", text(low), text(low + nearest * spacing));
                 self.problem(&at.key(key), what, &[low, high], &allowed, &fix);
             }
@@ -91,13 +114,14 @@ fn is_square(boundary: &Boundary, body: &Body) -> bool {
     let Some(angle) = boundary.normal_deg.filter(|_| boundary.kind == BoundaryKind::Plane) else {
         return boundary.kind == BoundaryKind::Plane;
     };
-    let [c, s] = direction(angle - body.rotation_deg);
+    let rotation = body.rectangle().map_or(body.rotation_deg, |r| r.rotation_deg);
+    let [c, s] = direction(angle - rotation);
     c.abs().min(s.abs()) < SQUARE
 }
 
 /// How far a plane is from a body before it, m; negative where it reaches into the body, `None` where it lacks what says so.
 fn beside(boundary: &Boundary, body: &Body) -> Option<f64> {
     let ([nx, ny], [x, y]) = (direction(boundary.normal_deg?), boundary.point_m?);
-    let heights = body.corners_m().map(|c| (c[0] - x) * nx + (c[1] - y) * ny);
-    Some(heights.into_iter().fold(f64::INFINITY, f64::min))
+    let heights = body.corners_m().into_iter().map(|c| (c[0] - x) * nx + (c[1] - y) * ny);
+    Some(heights.fold(f64::INFINITY, f64::min))
 }

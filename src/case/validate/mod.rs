@@ -9,7 +9,9 @@ mod gauges;
 mod kinematics;
 mod materials;
 mod sections;
+mod shapes;
 mod sizes;
+mod terrain;
 mod walls;
 mod warnings;
 
@@ -63,6 +65,7 @@ pub fn validate(case: &Case) -> Findings {
     checker.materials();
     checker.boundaries();
     checker.walls();
+    checker.terrain();
     checker.bodies();
     checker.contacts();
     checker.cost();

@@ -25,7 +25,7 @@ impl Checker<'_> {
         let at_nodes = self.case.numerics.boundary_contact == BoundaryContact::Nodes;
         for (index, boundary) in self.case.boundaries.iter().enumerate() {
             let at = KeyPath::top("boundaries").index(index);
-            if boundary.kind == BoundaryKind::Plane {
+            if [BoundaryKind::Plane, BoundaryKind::Polyline].contains(&boundary.kind) {
                 continue;
             }
             let path = at.key("thickness_m");

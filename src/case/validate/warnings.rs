@@ -113,9 +113,11 @@ impl Warnings {
         });
         let sand = |body: &Body| case.materials.get(&body.material).is_some_and(|m| m.drucker_prager().is_some());
         for body in case.bodies.iter().filter(|b| !on_line && boundary.acts_on(&b.name) && sand(b)) {
-            let from_foot = body.corners_m().map(|c| [c[0] - gate.foot_m[0], c[1] - gate.foot_m[1]]);
-            let least =
-                |way: [f64; 2]| from_foot.iter().map(|c| c[0] * way[0] + c[1] * way[1]).fold(f64::INFINITY, f64::min);
+            let Some(drawing) = body.drawing() else { continue };
+            let least = |way: [f64; 2]| {
+                let nearest = drawing.farthest_m(way.map(|x| -x));
+                (nearest[0] - gate.foot_m[0]) * way[0] + (nearest[1] - gate.foot_m[1]) * way[1]
+            };
             let (gap, low, top) = (least(normal), least(along), -least([-along[0], -along[1]]));
             let brim = gate.height_m - BELOW_CREST_CELLS * h;
             if gap.abs() < h && low < gate.height_m && top > brim + 1.0e-6 * h {
