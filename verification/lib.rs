@@ -7,6 +7,7 @@
 //!
 //! Elsewhere: code verification, benchmark suite, method of manufactured solutions (MMS).
 
+pub mod bagnold;
 pub mod cantilever;
 pub mod celerity;
 pub mod collapse;
@@ -23,6 +24,7 @@ pub mod files_body;
 pub mod files_rigid;
 pub mod from_file;
 pub mod invariance;
+pub mod law_points;
 pub mod manufactured;
 pub mod neo_hookean;
 pub mod other_codes;
@@ -34,6 +36,7 @@ pub mod scene;
 pub mod self_weight;
 pub mod sliding_block;
 pub mod slip;
+pub mod softening_layer;
 pub mod wall_place;
 pub mod wall_pressure;
 
@@ -146,7 +149,9 @@ ladder! { $
     slip,
     wall_place,
     drucker_prager_point,
+    law_points,
     celerity,
+    softening_layer,
     energy,
     earth_pressure,
     manufactured,
@@ -159,6 +164,7 @@ ladder! { $
     fall,
     collapse,
     outflow,
+    bagnold,
     files_rigid,
     invariance,
     convergence,
