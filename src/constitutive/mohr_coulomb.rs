@@ -116,7 +116,8 @@ impl Law for MohrCoulomb {
         let (from, about) = if cut { (tried, mean_tried) } else { (returned, mean_returned) };
         let [s0, s1, s2] = from.map(|v| v - about);
         let (size, room) = ((s0 - s2) + (s0 + s2) * self.friction, 2.0 * (self.cohesion - mean * self.friction));
-        let scale = if size > room { max(0.0, room) / size } else { 1.0 };
+        let fits = if size > room { room / size } else { 1.0 };
+        let scale = if room > 0.0 { fits } else { 0.0 };
         let [s0, s1, s2] = [scale * s0, scale * s1, scale * s2];
         let rebuilt = principal.with([mean + s0, mean + s1, mean + s2]);
         let touched = yields || mean != mean_returned;
@@ -226,7 +227,7 @@ mod tests {
             } else {
                 usize::from(end[0] - end[1] < 1e-6)
             };
-            kinds[kind] += usize::from(trial != end);
+            kinds[kind] += usize::from(law.face(trial[0], trial[2]) > 0.0);
         }
         assert!(kinds.iter().all(|n| *n > 5), "face, edges and apex: {kinds:?}");
     }
@@ -246,7 +247,7 @@ mod tests {
                 let worth: f64 = (0..3).map(|k| flow[k] * end[k]).sum();
                 assert!(worth > -1e-9, "energy from nothing: {trial:?} {end:?}");
                 if law.face(trial[0], trial[2]) <= 0.0 {
-                    assert_eq!(end, trial);
+                    assert!((0..3).all(|k| (end[k] - trial[k]).abs() < 1e-9), "{trial:?} {end:?}");
                 } else if end[0] > end[2] + 1e-6 {
                     let size: f64 = flow.iter().map(|e| e.abs()).sum();
                     let volume: f64 = flow.iter().sum();
@@ -351,8 +352,8 @@ mod tests {
         let turn = HalfTurn { cos2: 0.28, sin2: 0.96 };
         let [mut a, mut b] = [pressed(2e3); 2];
         for _ in 0..200 {
-            let e =
-                Symmetric { xx: random.signed(), yy: random.signed() - 0.1, zz: 0.0, xy: random.signed() }.times(2e-3);
+            let e = Symmetric { xx: random.signed(), yy: random.signed() - 0.1, zz: 0.0, xy: random.signed() + 0.5 }
+                .times(2e-3);
             let t = e.turned(turn);
             let spin = 0.01 * random.signed();
             let work = law.update(&mut a, &Increment { dt: 0.0, xx: e.xx, yy: e.yy, xy: e.xy, spin });
