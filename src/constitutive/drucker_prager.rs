@@ -4,7 +4,6 @@
 //! separates.
 
 use super::elastic::LinearElastic;
-use super::opened::{Capped, capped, closed, max, min};
 use super::{Increment, Law, PointState};
 use crate::seeded::{self, Seed};
 use serde::{Deserialize, Serialize};
@@ -104,8 +103,10 @@ impl Law for DruckerPrager {
         let before = state.stress.turned(half);
 
         // Opened material closes without resistance first.
-        let (closing, still_open) = closed(state.opened, d);
-        let trial = self.elastic.strain(&before, d, d.volumetric() + closing);
+        let volumetric = d.volumetric();
+        let closing = max(0.0, min(state.opened, -volumetric));
+        let still_open = state.opened - closing;
+        let trial = self.elastic.strain(&before, d, volumetric + closing);
 
         let (mean_trial, tau_trial) = (trial.mean(), trial.j2().sqrt());
 
@@ -113,13 +114,21 @@ impl Law for DruckerPrager {
         let excess = max(0.0, tau_trial + self.friction * mean_trial - self.cohesion);
         let multiplier = excess * (1.0 / (shear + bulk * self.friction * self.dilatancy));
         let mean_cone = mean_trial - bulk * self.dilatancy * multiplier;
-        let Capped { mean, opened, .. } = capped(mean_cone, still_open, bulk, self.tension_cutoff, self.void_tracking);
+        // Dilatancy, too, fills what is open before it presses.
+        let filled = max(0.0, min(still_open, -mean_cone * (1.0 / bulk)));
+        let mean_cone = if filled < still_open { max(mean_cone, 0.0) } else { mean_cone + bulk * filled };
+        let still_open = still_open - filled;
+        // Material that is open, or comes apart now, has lost its tensile strength.
+        let torn = still_open > 0.0 || (self.void_tracking && mean_cone > self.tension_cutoff);
+        let cap = if torn { min(0.0, self.tension_cutoff) } else { self.tension_cutoff };
+        let mean = min(mean_cone, cap);
         let tau = max(0.0, min(tau_trial, self.cohesion - self.friction * mean));
 
         let scale = if tau_trial > 0.0 { tau / tau_trial } else { 0.0 };
         let after = trial.deviator().times(scale).plus_mean(mean);
 
-        state.opened = opened;
+        let opening = (mean_cone - mean) * (1.0 / bulk);
+        state.opened = if self.void_tracking { still_open + opening } else { 0.0 };
         state.plastic_shear += (tau_trial - tau) * (1.0 / (shear * 3f64.sqrt()));
         state.stress = after.turned(half);
         d.midpoint_work(&before, &after)
@@ -136,4 +145,15 @@ impl Law for DruckerPrager {
     fn p_wave_modulus(&self) -> f64 {
         self.elastic.p_wave_modulus()
     }
+}
+
+// Comparisons that become single vector instructions; f64::min and max treat NaN apart, which costs.
+#[inline(always)]
+fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn min(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
