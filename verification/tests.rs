@@ -173,11 +173,3 @@ fn every_rung_has_a_figure_and_every_report_a_rung() {
         assert!(known(&stem), "{name} belongs to no rung: delete it");
     }
 }
-
-#[test]
-#[ignore = "temporary"]
-fn faults_of_a_rung() {
-    for name in std::env::var("RUNG").expect("a rung").split(',') {
-        println!("{}", faults_csv(caught_by(rung(name))));
-    }
-}

@@ -44,6 +44,30 @@ impl MuI {
         let above = depth - height;
         Some(2.0 / 3.0 * scale * (depth * sqrt(depth) - above * sqrt(above)))
     }
+
+    /// The same on an elastic skeleton in rate form with the shear modulus `shear` (Pa), by the midpoint rule on 2000 layers. Stresses that turn
+    /// with the material (Jaumann) and flow have in steady simple shear s_xx = -s_yy = tau^2/G to first order in tau/G, so the pressure is
+    /// less than the load above it by tau^2/G, and the friction by so much larger.
+    pub fn incline_velocity_on_elastic(
+        &self,
+        density: f64,
+        gravity: f64,
+        angle: f64,
+        [depth, height]: [f64; 2],
+        shear: f64,
+    ) -> Option<f64> {
+        const LAYERS: u32 = 2000;
+        let thin = height / f64::from(LAYERS);
+        (0..LAYERS)
+            .map(|k| {
+                let load = density * gravity * cos(angle) * (depth - (f64::from(k) + 0.5) * thin);
+                let tau = load * tan(angle);
+                let pressure = load - tau * tau / shear;
+                let number = self.number_of(tau / pressure)?;
+                Some(thin * number / self.diameter * sqrt(pressure / self.grain_density))
+            })
+            .sum()
+    }
 }
 
 #[cfg(test)]
@@ -77,5 +101,21 @@ mod tests {
             assert!((friction / tan(angle) - 1.0).abs() < 1e-7, "{y}: {friction}");
         }
         assert_eq!(BEADS.incline_velocity(density, g, 0.3, depth, 0.01), None);
+    }
+
+    #[test]
+    fn a_stiff_skeleton_is_none_and_a_soft_one_flows_faster() {
+        let (density, g, angle, depth) = (1500.0, 9.81, 25f64.to_radians(), 0.03);
+        let rigid = |y| BEADS.incline_velocity(density, g, angle, depth, y).expect("flows");
+        let on = |y, shear| BEADS.incline_velocity_on_elastic(density, g, angle, [depth, y], shear).expect("flows");
+        for y in [0.01, 0.02, 0.03] {
+            assert!((on(y, 1e15) / rigid(y) - 1.0).abs() < 1e-5, "{y}");
+        }
+        // Close to the base, to first order: the rate goes with I sqrt(p), and dI/dmu = (mu_2 - mu_s) I_0 / (mu_2 - mu)^2.
+        let (shear, mu) = (1e6, tan(angle));
+        let less = mu * mu * density * g * cos(angle) * depth / shear;
+        let steep = (BEADS.most - BEADS.least) * mu / ((BEADS.most - mu) * (mu - BEADS.least));
+        let excess = on(1e-5, shear) / rigid(1e-5) - 1.0;
+        assert!((excess / (less * (steep - 0.5)) - 1.0).abs() < 1e-2, "{excess}");
     }
 }
