@@ -8,8 +8,8 @@
 //! ```
 //!
 //! **Scope.** Two dimensions, plane strain with a thickness; stress is always the full tensor. Bodies in contact
-//! have a velocity field each; rigid boundaries; Coulomb friction. Linear elasticity and Drucker-Prager in rate form, and a
-//! neo-Hookean law.
+//! have a velocity field each; rigid boundaries; Coulomb friction. Linear elasticity, Drucker-Prager, Mohr-Coulomb, von Mises and
+//! mu(I) in rate form, and a neo-Hookean law.
 //!
 //! **Conventions.** SI units. Tension is positive; the mean stress is tr(sigma)/3. Angles are radians, except in case files,
 //! where the field's name says degrees. A table's column names end in their units. Forces on a barrier are positive when the

@@ -7,6 +7,7 @@
 //!
 //! Elsewhere: code verification, benchmark suite, method of manufactured solutions (MMS).
 
+pub mod bagnold;
 pub mod cantilever;
 pub mod celerity;
 pub mod collapse;
@@ -23,6 +24,7 @@ pub mod files_body;
 pub mod files_rigid;
 pub mod from_file;
 pub mod invariance;
+pub mod law_points;
 pub mod manufactured;
 pub mod neo_hookean;
 pub mod other_codes;
@@ -35,6 +37,7 @@ pub mod self_weight;
 pub mod sliding_block;
 pub mod slip;
 pub mod terrain;
+pub mod softening_layer;
 pub mod wall_place;
 pub mod wall_pressure;
 
@@ -147,7 +150,9 @@ ladder! { $
     slip,
     wall_place,
     drucker_prager_point,
+    law_points,
     celerity,
+    softening_layer,
     energy,
     earth_pressure,
     manufactured,
@@ -161,6 +166,7 @@ ladder! { $
     collapse,
     outflow,
     terrain,
+    bagnold,
     files_rigid,
     invariance,
     convergence,

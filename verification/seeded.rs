@@ -18,6 +18,7 @@ const SEEN: &str = "seen by the check: ";
 /// Rungs that are asked for the table, or after a colon a part of one, the quick ones first. The others take longer than all of these.
 const QUICK: &[&str] = &[
     "drucker_prager_point",
+    "law_points",
     "files_rigid:rest",
     "files_rigid:slide",
     "files_rigid:column",

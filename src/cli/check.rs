@@ -2,7 +2,7 @@
 
 use super::progress::remaining;
 use super::{ENDED_EARLY, load, say, tell, use_threads};
-use checkdam::case::Material;
+use checkdam::case::{Law, Material};
 use checkdam::constitutive::{Cone, DruckerPrager, LinearElastic};
 use checkdam::run::scene;
 use checkdam::simulation::Simulation;
@@ -71,11 +71,12 @@ pub fn check(path: &Path, threads: Option<u16>) -> ExitCode {
 
 /// What the cone of a granular material makes of its friction angle in plane flow: a note, and no warning. None for other materials.
 fn strength(name: &str, material: &Material) -> Option<String> {
-    let given = material.drucker_prager()?;
+    let given = material.frictional().filter(|_| material.law == Law::DruckerPrager)?;
     let [phi, psi] = [given.friction_angle_deg, given.dilatancy_angle_deg].map(f64::to_radians);
     let elastic = LinearElastic::new(material.young_pa, material.poisson);
     let law = DruckerPrager::new(elastic, given.cone, phi, psi, given.cohesion_pa, given.tension_cutoff_pa, true);
-    let acts = plane_strain_angle(law.friction, law.dilatancy).to_degrees();
+    let effective = (1.0 - given.pore_pressure_ratio) * law.friction;
+    let acts = plane_strain_angle(effective, law.dilatancy).to_degrees();
     let acts = if acts.is_finite() { format!("as {acts:.1} degrees") } else { "without limit".to_owned() };
     let cone = match given.cone {
         Cone::TriaxialCompression => "triaxial_compression\"",

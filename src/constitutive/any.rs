@@ -1,18 +1,16 @@
 //! All laws under one type: the only place that lists them.
 
-#[cfg(test)]
-use super::VonMises;
-use super::{DruckerPrager, Finger, Increment, Law, LinearElastic, NeoHookean, PointState};
+use super::{DruckerPrager, Finger, Increment, Law, LinearElastic, MohrCoulomb, MuI, NeoHookean, PointState};
+use super::{SofteningDruckerPrager, SofteningMohrCoulomb, VonMises};
 
 /// Makes of the list of laws the type of any of them, what any of them needs at most, and `with_law`.
 macro_rules! laws {
-    ($dollar:tt $($(#[$when:meta])? $law:ident),* $(,)?) => {
+    ($dollar:tt $($law:ident),* $(,)?) => {
         /// Any of the laws, chosen once for a body.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum AnyLaw {
             $(
                 #[doc = concat!("See [`", stringify!($law), "`].")]
-                $(#[$when])?
                 $law($law),
             )*
         }
@@ -21,10 +19,7 @@ macro_rules! laws {
         const MOST: usize = {
             let mut most = 0;
             $(
-                $(#[$when])?
-                {
-                    most = if $law::HISTORY > most { $law::HISTORY } else { most };
-                }
+                most = if $law::HISTORY > most { $law::HISTORY } else { most };
             )*
             most
         };
@@ -33,7 +28,7 @@ macro_rules! laws {
         macro_rules! with_law {
             ($dollar any:expr, $dollar own:ident => $dollar value:expr) => {
                 match $dollar any {
-                    $($(#[$when])? $crate::constitutive::AnyLaw::$law($dollar own) => $dollar value,)*
+                    $($crate::constitutive::AnyLaw::$law($dollar own) => $dollar value,)*
                 }
             };
         }
@@ -44,8 +39,11 @@ laws! { $
     LinearElastic,
     DruckerPrager,
     NeoHookean,
-    #[cfg(test)]
+    MohrCoulomb,
     VonMises,
+    SofteningDruckerPrager,
+    SofteningMohrCoulomb,
+    MuI,
 }
 
 pub(crate) use with_law;

@@ -10,20 +10,26 @@ mod any;
 mod drucker_prager;
 mod elastic;
 mod logarithm;
+mod mohr_coulomb;
+mod mu_i;
 mod neo_hookean;
 mod nominal;
+mod opened;
+mod principal;
+mod softening;
 mod tensor;
-#[cfg(test)]
 mod von_mises;
 
 pub use any::AnyLaw;
 pub(crate) use any::with_law;
 pub use drucker_prager::{Cone, DruckerPrager};
 pub use elastic::LinearElastic;
+pub use mohr_coulomb::MohrCoulomb;
+pub use mu_i::MuI;
 pub use neo_hookean::NeoHookean;
 pub use nominal::{Gradient, Nominal};
+pub use softening::{Softening, SofteningDruckerPrager, SofteningMohrCoulomb, Softens};
 pub use tensor::{Finger, HalfTurn, Increment, Stress, Symmetric};
-#[cfg(test)]
 pub use von_mises::VonMises;
 
 /// Room for what a law keeps of its own at a point, of which it uses the first [`Law::HISTORY`]; the others are zero.

@@ -60,6 +60,17 @@ impl Symmetric {
         Self { xx: factor * self.xx, yy: factor * self.yy, zz: factor * self.zz, xy: factor * self.xy }
     }
 
+    /// Of each component of two what a rule makes of the pair.
+    #[inline(always)]
+    pub fn zip(&self, other: &Self, rule: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            xx: rule(self.xx, other.xx),
+            yy: rule(self.yy, other.yy),
+            zz: rule(self.zz, other.zz),
+            xy: rule(self.xy, other.xy),
+        }
+    }
+
     /// The tensor that turns with the material.
     #[inline(always)]
     pub fn turned(&self, by: HalfTurn) -> Self {

@@ -8,7 +8,7 @@ use super::filling;
 use crate::body::{Body, Particle};
 use crate::boundary::{Boundary, Friction};
 use crate::case::{self, Case};
-use crate::constitutive::{AnyLaw, DruckerPrager, LinearElastic, NeoHookean};
+use crate::constitutive::{AnyLaw, DruckerPrager, LinearElastic, MohrCoulomb, MuI, NeoHookean, Softening, VonMises};
 use crate::contact::rule::ContactRule;
 use crate::grid::Lattice;
 use crate::mesh::Mesh;
@@ -136,18 +136,58 @@ fn law(material: &case::Material) -> AnyLaw {
     let young = seeded::times(Seed::CaseYoung, material.young_pa);
     let poisson = seeded::times(Seed::CasePoisson, material.poisson);
     let elastic = LinearElastic::new(young, poisson);
-    match (material.law, material.drucker_prager()) {
-        (case::Law::NeoHookean, _) => AnyLaw::NeoHookean(NeoHookean::new(young, poisson)),
-        (case::Law::LinearElastic, _) | (case::Law::DruckerPrager, None) => AnyLaw::LinearElastic(elastic),
-        (case::Law::DruckerPrager, Some(dp)) => AnyLaw::DruckerPrager(DruckerPrager::new(
+    match material.law {
+        case::Law::LinearElastic => AnyLaw::LinearElastic(elastic),
+        case::Law::NeoHookean => AnyLaw::NeoHookean(NeoHookean::new(young, poisson)),
+        case::Law::DruckerPrager | case::Law::MohrCoulomb => material
+            .frictional()
+            .map_or(AnyLaw::LinearElastic(elastic), |given| frictional(material.law, &given, elastic)),
+        case::Law::VonMises => AnyLaw::VonMises(VonMises {
             elastic,
-            dp.cone,
-            seeded::times(Seed::CaseFrictionAngle, dp.friction_angle_deg).to_radians(),
-            if seeded::is(Seed::CaseDilatancy) { 0.0 } else { dp.dilatancy_angle_deg.to_radians() },
-            seeded::times(Seed::CaseCohesion, dp.cohesion_pa),
-            dp.tension_cutoff_pa,
-            dp.void_tracking && !seeded::is(Seed::CaseVoids),
+            strength: seeded::times(Seed::CaseStrength, given(material.shear_strength_pa)),
+            hardening: seeded::times(Seed::CaseHardening, given(material.hardening_pa)),
+            viscosity: seeded::times(Seed::CaseViscosity, given(material.viscosity_pa_s)),
+        }),
+        case::Law::MuI => AnyLaw::MuI(MuI::new(
+            elastic,
+            [material.mu_s, material.mu_2].map(given),
+            given(material.i_0),
+            seeded::times(Seed::CaseGrains, given(material.grain_diameter_m)),
+            given(material.grain_density_kg_per_m3),
+            material.void_tracking.unwrap_or(true),
         )),
+    }
+}
+
+/// A number that a validated case has where its law needs it; what has no number is zero.
+fn given(number: Option<f64>) -> f64 {
+    number.unwrap_or(0.0)
+}
+
+/// A law with a friction angle.
+fn frictional(law: case::Law, given: &case::Frictional, elastic: LinearElastic) -> AnyLaw {
+    let phi = seeded::times(Seed::CaseFrictionAngle, given.friction_angle_deg).to_radians();
+    let psi = if seeded::is(Seed::CaseDilatancy) { 0.0 } else { given.dilatancy_angle_deg.to_radians() };
+    let cohesion = seeded::times(Seed::CaseCohesion, given.cohesion_pa);
+    let (cutoff, tracking) = (given.tension_cutoff_pa, given.void_tracking && !seeded::is(Seed::CaseVoids));
+    let softening = given.softening.filter(|_| !seeded::is(Seed::CaseSoftening));
+    let effective = 1.0 - seeded::times(Seed::CasePorePressure, given.pore_pressure_ratio);
+    let cone = |phi, psi, cohesion| {
+        let dry = DruckerPrager::new(elastic, given.cone, phi, psi, cohesion, cutoff, tracking);
+        DruckerPrager { friction: effective * dry.friction, ..dry }
+    };
+    let pyramid = |phi, psi, cohesion| MohrCoulomb::new(elastic, phi, psi, cohesion, cutoff, tracking);
+    match (law, softening) {
+        (case::Law::MohrCoulomb, None) => AnyLaw::MohrCoulomb(pyramid(phi, psi, cohesion)),
+        (case::Law::MohrCoulomb, Some([critical, over])) => {
+            let critical = pyramid(critical.to_radians(), 0.0, 0.0).friction;
+            AnyLaw::SofteningMohrCoulomb(Softening { peak: pyramid(phi, psi, cohesion), critical, over })
+        }
+        (_, None) => AnyLaw::DruckerPrager(cone(phi, psi, cohesion)),
+        (_, Some([critical, over])) => {
+            let critical = cone(critical.to_radians(), 0.0, 0.0).friction;
+            AnyLaw::SofteningDruckerPrager(Softening { peak: cone(phi, psi, cohesion), critical, over })
+        }
     }
 }
 
@@ -270,6 +310,52 @@ mod tests {
         let apex = 500.0 / libm::tan(31f64.to_radians());
         assert!((law.tension_cutoff / apex - 1.0).abs() < 1e-12, "{law:?} {apex}");
         assert!((law.cohesion / law.friction / apex - 1.0).abs() < 1e-12, "{law:?} {apex}");
+    }
+
+    /// The law of a case of one material with these keys.
+    fn law_of(keys: &str) -> AnyLaw {
+        let material: case::Material =
+            toml::from_str(&format!("density_kg_per_m3 = 1500\nyoung_pa = 1e6\npoisson = 0.3\n{keys}"))
+                .expect("a material");
+        law(&material)
+    }
+
+    #[test]
+    fn the_numbers_of_a_law_arrive_in_it() {
+        let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b}");
+        let mohr = "law = \"mohr_coulomb\"\nfriction_angle_deg = 35\ndilatancy_angle_deg = 8\ncohesion_pa = 500";
+        let [sin, cos] = [libm::sin, libm::cos].map(|f| f(35f64.to_radians()));
+        let AnyLaw::MohrCoulomb(law) = law_of(mohr) else { panic!("another law") };
+        near(law.friction, sin);
+        near(law.dilatancy, libm::sin(8f64.to_radians()));
+        near(law.cohesion, 500.0 * cos);
+        assert!(law.void_tracking && law.tension_cutoff == 0.0);
+        let softens = "critical_friction_angle_deg = 30\nsoftening_strain = 0.2";
+        let AnyLaw::SofteningMohrCoulomb(law) = law_of(&format!("{mohr}\n{softens}")) else { panic!("another law") };
+        near(law.peak.friction, sin);
+        near(law.critical, 0.5);
+        near(law.over, 0.2);
+        let cone = "law = \"drucker_prager\"\nfriction_angle_deg = 35\ndilatancy_angle_deg = 8";
+        let AnyLaw::SofteningDruckerPrager(law) = law_of(&format!("{cone}\n{softens}")) else { panic!("another law") };
+        assert!(AnyLaw::DruckerPrager(law.peak) == law_of(cone));
+        near(law.critical, 0.5);
+        let AnyLaw::DruckerPrager(dry) = law_of(cone) else { panic!("another law") };
+        let AnyLaw::DruckerPrager(wet) = law_of(&format!("{cone}\npore_pressure_ratio = 0.4")) else {
+            panic!("another law")
+        };
+        near(wet.friction, 0.6 * dry.friction);
+        assert!(DruckerPrager { friction: dry.friction, ..wet } == dry);
+        let clay = "law = \"von_mises\"\nshear_strength_pa = 2000\nhardening_pa = 3e4\nviscosity_pa_s = 20";
+        let AnyLaw::VonMises(law) = law_of(clay) else { panic!("another law") };
+        near(law.strength, 2000.0);
+        near(law.hardening, 3e4);
+        near(law.viscosity, 20.0);
+        let beads = "law = \"mu_i\"\nmu_s = 0.38\nmu_2 = 0.64\ni_0 = 0.3\ngrain_diameter_m = 5e-4\ngrain_density_kg_per_m3 = 2500";
+        let AnyLaw::MuI(law) = law_of(beads) else { panic!("another law") };
+        assert_eq!([law.least, law.most], [0.38, 0.64]);
+        // I_0 / (d sqrt(rho_s)) = 0.3 / (5e-4 x 50).
+        near(law.half_way, 12.0);
+        assert!(law.void_tracking);
     }
 
     #[test]

@@ -25,6 +25,12 @@ faults! {
     CaseFrictionAngle, "case.friction_angle", Times(1.03), "friction angle of a material";
     CaseDilatancy, "case.dilatancy", Dropped, "dilatancy angle of a material";
     CaseCohesion, "case.cohesion", Times(1.03), "cohesion of a material";
+    CaseSoftening, "case.softening", Dropped, "that friction softens";
+    CasePorePressure, "case.pore_pressure", Times(1.03), "share of the pressure that pore fluid carries";
+    CaseStrength, "case.strength", Times(1.03), "shear strength of a von Mises material";
+    CaseHardening, "case.hardening", Times(1.03), "hardening of a von Mises material";
+    CaseViscosity, "case.viscosity", Times(1.03), "viscosity of a von Mises material";
+    CaseGrains, "case.grains", Times(1.03), "diameter of the grains of mu(I)";
     CaseVoids, "case.voids", Dropped, "void tracking of a material";
     CaseFriction, "case.friction", Times(1.03), "friction of a boundary";
     CaseSlipLength, "case.slip_length", Times(1.03), "slip length of a boundary";
@@ -181,6 +187,9 @@ faults! {
     ConstitutiveBulk, "constitutive.bulk", Times(1.03), "bulk modulus";
     ConstitutiveShear, "constitutive.shear", Times(1.03), "shear modulus";
     ConstitutiveLame, "constitutive.lame", Times(1.03), "Lame's first parameter of the neo-Hookean law";
+    ConstitutivePyramid, "constitutive.pyramid", Times(1.03), "sine of the friction angle of Mohr-Coulomb";
+    ConstitutivePyramidDilatancy, "constitutive.pyramid_dilatancy", Times(1.03), "sine of the dilatancy angle of Mohr-Coulomb";
+    ConstitutiveInertial, "constitutive.inertial", Times(1.03), "inertial number of mu(I) at half way";
     ConstitutiveSpin, "constitutive.spin", Dropped, "turn of the stress with the material";
 
     TransferForce, "transfer.force", Times(1.03), "volume in the internal force";

@@ -44,6 +44,7 @@ const EXACT: &[&str] = &[
     "run::scene::tests::a_raised_gate",
     "run::scene::tests::cohesion_of_the_case",
     "run::scene::tests::points_carry_the_mass",
+    "run::scene::tests::the_numbers_of_a_law",
     "simulation::implicit::tests::alone::",
     "simulation::lagrangian::tests::implicit::a_step_obeys",
     "simulation::occupied::tests::dense_sand",

@@ -18,6 +18,8 @@ pub mod impact;
 pub mod jaumann;
 pub mod jump;
 pub mod manufactured;
+pub mod mohr_coulomb;
+pub mod mu_i;
 pub mod neo_hookean;
 pub mod order;
 pub mod outflow;

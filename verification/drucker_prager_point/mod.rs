@@ -107,13 +107,13 @@ fn law_at(phi: f64, cone: Cone, psi: f64, cohesion: f64, poisson: f64, fault: &F
     law
 }
 
-fn strain(xx: f64, yy: f64, xy: f64) -> Increment {
+pub(crate) fn strain(xx: f64, yy: f64, xy: f64) -> Increment {
     Increment { xx, yy, xy, ..Increment::default() }
 }
 
 /// Advances `state` by an increment of which one component, set by `with`, is such that `stress` of the state vanishes:
 /// secant iteration. NaN, which no check accepts, where it does not converge.
-fn drive<L: Law>(
+pub(crate) fn drive<L: Law>(
     law: &L,
     state: &mut PointState,
     guess: f64,

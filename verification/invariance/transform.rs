@@ -67,9 +67,17 @@ pub fn scaled(case: &Case, by: &Factors) -> Case {
     [&mut case.grid.origin_m, &mut case.domain.x_m, &mut case.domain.y_m].into_iter().for_each(|x| lengths(x));
     for material in case.materials.values_mut() {
         scale(by.of("_kg_per_m3"), &mut material.density_kg_per_m3);
-        let stresses =
-            [Some(&mut material.young_pa), material.cohesion_pa.as_mut(), material.tension_cutoff_pa.as_mut()];
-        stresses.into_iter().flatten().for_each(|x| scale(by.of("_pa"), x));
+        let stresses = [
+            &mut material.cohesion_pa,
+            &mut material.tension_cutoff_pa,
+            &mut material.shear_strength_pa,
+            &mut material.hardening_pa,
+        ];
+        let stresses = stresses.into_iter().flatten().chain([&mut material.young_pa]);
+        stresses.for_each(|x| scale(by.of("_pa"), x));
+        material.viscosity_pa_s.iter_mut().for_each(|x| scale(by.of("_pa") * time, x));
+        material.grain_diameter_m.iter_mut().for_each(|x| scale(length, x));
+        material.grain_density_kg_per_m3.iter_mut().for_each(|x| scale(by.of("_kg_per_m3"), x));
     }
     for body in &mut case.bodies {
         body.x_m.iter_mut().chain(&mut body.y_m).for_each(|x| lengths(x));

@@ -13,6 +13,7 @@ mod doubts;
 mod fixes;
 mod gauges;
 mod shapes;
+mod materials;
 
 fn line_of(text: &str, marker: &str) -> usize {
     let position = text.find(marker).unwrap_or_else(|| panic!("no {marker:?} in the text"));

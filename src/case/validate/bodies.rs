@@ -69,7 +69,7 @@ impl Checker<'_> {
             return;
         }
         let path = at.key("integration");
-        let elastic = self.case.materials.get(&body.material).is_none_or(|m| m.drucker_prager().is_none());
+        let elastic = self.case.materials.get(&body.material).is_none_or(|m| !m.law.flows());
         let loose = |b: &&Boundary| b.acts_on(&body.name) && b.contact != ContactKind::Bonded;
         let (allowed, fix) = if !self.case.contacts.iter().any(|c| c.bodies.contains(&body.name)) {
             (

@@ -96,7 +96,7 @@ impl Checker<'_> {
     fn contact_structure(&mut self, at: &KeyPath, contact: &BodyContact) {
         let granular = |name: &str| {
             let body = self.case.bodies.iter().find(|b| b.name == name);
-            body.and_then(|b| self.case.materials.get(&b.material)).is_some_and(|m| m.drucker_prager().is_some())
+            body.and_then(|b| self.case.materials.get(&b.material)).is_some_and(|m| m.law.flows())
         };
         let (normal, gap) = (contact.normal.unwrap_or_default(), contact.gap.unwrap_or_default());
         if normal == NormalKind::Average && gap == GapKind::Extents {
@@ -108,14 +108,15 @@ impl Checker<'_> {
         if !granular(structure) {
             return;
         }
-        let allowed = "a structure that keeps its faces, so not a granular body";
+        let allowed = "a structure that keeps its faces, so not a granular body or another one that flows";
         let other = contact.bodies.iter().find(|name| *name != structure && !granular(name));
         let fix = match other {
             Some(other) => format!("add structure = \"{other}\", or name `{other}` first"),
             None => "use normal = \"regression\": neither of the two keeps its faces".to_owned(),
         };
         let path = at.key(if contact.structure.is_some() { "structure" } else { "bodies" });
-        let what = format!("{path}: `{structure}` would be the structure of the contact, and is granular");
+        let what =
+            format!("{path}: `{structure}` would be the structure of the contact, and is granular or flows otherwise");
         self.problem(&path, what, &structure, allowed, &fix);
     }
 

@@ -92,7 +92,7 @@ fn thin(case: &Case, at: &KeyPath, body: &Body) -> Option<Problem> {
     let [length, height] = body.size_m();
     let depth = length.min(height);
     let cells = depth / case.grid.spacing_m;
-    let elastic = case.materials.get(&body.material).is_some_and(|m| m.drucker_prager().is_none());
+    let elastic = case.materials.get(&body.material).is_some_and(|m| !m.law.flows());
     let key = match (body.foot_m, length <= height) {
         (None, true) => "x_m",
         (None, false) => "y_m",
@@ -129,7 +129,7 @@ fn pic(case: &Case) -> Option<Problem> {
         let viscosity = (1.0 / 6.0 + 1.0 / (12.0 * n * n)) * rate * h * h;
         2.0 * viscosity * (std::f64::consts::PI / depth).powi(2) * (depth / g).sqrt()
     };
-    let flows = |b: &&Body| case.materials.get(&b.material).is_some_and(|m| m.drucker_prager().is_some());
+    let flows = |b: &&Body| case.materials.get(&b.material).is_some_and(|m| m.law.flows());
     let largest = case.bodies.iter().filter(|b| has_geometry(b)).filter(flows).map(loss).fold(0.0, f64::max);
     (largest > HALF && g > 0.0).then(|| {
         let path = KeyPath::top("numerics").key(key);

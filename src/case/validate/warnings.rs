@@ -61,7 +61,7 @@ impl Warnings {
         let holds = !(LIGHTEST..=HEAVIEST).contains(&density);
         self.add_if(holds, &at.key("density_kg_per_m3"), density, "kg/m^3; dry sand has about 1500", &fix);
 
-        if let Some(law) = material.drucker_prager() {
+        if let Some(law) = material.frictional() {
             let friction = law.friction_angle_deg;
             let fix = format!("if the angle is in radians, write {} degrees", text(friction.to_degrees()));
             let holds = friction > 0.0 && friction < 1.0;
@@ -111,7 +111,7 @@ impl Warnings {
             let cells = (crest - case.grid.origin_m[d]) / h;
             along[d].abs() == 1.0 && (cells - cells.round()).abs() < 1.0e-6
         });
-        let sand = |body: &Body| case.materials.get(&body.material).is_some_and(|m| m.drucker_prager().is_some());
+        let sand = |body: &Body| case.materials.get(&body.material).is_some_and(|m| m.law.flows());
         for body in case.bodies.iter().filter(|b| !on_line && boundary.acts_on(&b.name) && sand(b)) {
             let Some(drawing) = body.drawing() else { continue };
             let least = |way: [f64; 2]| {
