@@ -22,6 +22,7 @@ pub mod figure;
 pub mod files_body;
 pub mod files_rigid;
 pub mod from_file;
+pub mod inflow;
 pub mod invariance;
 pub mod manufactured;
 pub mod neo_hookean;
@@ -159,6 +160,7 @@ ladder! { $
     fall,
     collapse,
     outflow,
+    inflow,
     files_rigid,
     invariance,
     convergence,

@@ -19,6 +19,7 @@ mod contact;
 mod gauges;
 mod geometry;
 mod grid;
+mod inflow;
 mod material;
 mod parse;
 mod path;
@@ -42,6 +43,7 @@ pub use boundary::{Boundary, BoundaryKind, ContactKind, MaterialSide, OpeningKin
 pub use contact::{BodyContact, GapKind, NormalKind};
 pub use gauges::{Gauges, Window};
 pub use grid::{Domain, Filling, Grid};
+pub use inflow::{Inflow, Profile, Towards};
 pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
@@ -142,7 +144,7 @@ fn read(format: &Format, path: &Path) -> Result<String, (String, String)> {
 const CASE: Format = Format {
     kind: "case file",
     page: "docs/reference/case.md",
-    required: &["title", "gravity", "grid", "domain", "materials", "bodies", "stages"],
+    required: &["title", "gravity", "grid", "domain", "materials", "stages"],
     misplaced: structure::misplaced,
 };
 /// The study file.

@@ -49,7 +49,7 @@ fn energy_is_booked_once_each_with_dissipation_positive() {
         Stock { mass: 9e9, heavy: 9e9, momentum: [9e9; 2], kinetic: p(30), gravitational: p(31), elastic: p(32) };
     let now = Stock { mass: 8e9, heavy: 8e9, momentum: [8e9; 2], kinetic: p(27), gravitational: p(28), elastic: p(29) };
     let datum = [p(33), p(34)];
-    let b = EnergyBalance::new(&ledger(), &opening, &now, datum);
+    let b = EnergyBalance::new(&ledger(), &opening, &now, [datum[0], datum[1], 0.0]);
     assert_eq!(b.kinetic, p(27));
     assert_eq!(b.gravitational, p(28) - p(34));
     assert_eq!(b.elastic, p(29) + p(36));
@@ -77,7 +77,7 @@ fn contacts_of_bodies_dissipate_and_give_no_impulse() {
     assert_eq!(with.impulse(), ledger().impulse());
     let (opening, now) = (Stock::default(), Stock::default());
     let (without, balance) =
-        (EnergyBalance::new(&ledger(), &opening, &now, [0.0; 2]), EnergyBalance::new(&with, &opening, &now, [0.0; 2]));
+        (EnergyBalance::new(&ledger(), &opening, &now, [0.0; 3]), EnergyBalance::new(&with, &opening, &now, [0.0; 3]));
     assert_eq!((balance.friction[2], balance.contact[2]), (0.25, 0.5));
     assert_eq!(balance.residual, without.residual - 0.75);
 }

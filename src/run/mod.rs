@@ -10,10 +10,12 @@ mod barrier_tables;
 mod clock;
 mod columns;
 mod deposit;
+mod entered;
 mod experiment;
 mod figures;
 pub mod files;
 mod gauges;
+pub mod inflow;
 #[cfg(test)]
 mod invariance_tests;
 mod means;

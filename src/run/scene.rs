@@ -38,7 +38,7 @@ pub fn gravity(case: &Case, angle_deg: f64) -> [f64; 2] {
     [g * libm::sin(angle), -g * libm::cos(angle)]
 }
 
-fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
+pub(super) fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
     let material = &case.materials[&b.material];
     let case::Lattice { counts: [nx, ny], spacing_m: [along, across] } = b.lattice(&case.grid);
     let volume = along * across * case.grid.thickness_m;
@@ -95,7 +95,7 @@ fn uniform(seed: u64, counter: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-fn law(material: &case::Material) -> AnyLaw {
+pub(super) fn law(material: &case::Material) -> AnyLaw {
     let young = seeded::times(Seed::CaseYoung, material.young_pa);
     let poisson = seeded::times(Seed::CasePoisson, material.poisson);
     let elastic = LinearElastic::new(young, poisson);

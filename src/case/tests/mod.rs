@@ -12,6 +12,7 @@ mod contacts;
 mod doubts;
 mod fixes;
 mod gauges;
+mod inflows;
 
 fn line_of(text: &str, marker: &str) -> usize {
     let position = text.find(marker).unwrap_or_else(|| panic!("no {marker:?} in the text"));

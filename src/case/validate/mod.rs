@@ -6,6 +6,7 @@ mod contacts;
 mod cost;
 mod doubts;
 mod gauges;
+mod inflows;
 mod kinematics;
 mod materials;
 mod sections;
@@ -64,6 +65,7 @@ pub fn validate(case: &Case) -> Findings {
     checker.boundaries();
     checker.walls();
     checker.bodies();
+    checker.inflows();
     checker.contacts();
     checker.cost();
     // What is refused needs no warning on top.
