@@ -16,6 +16,7 @@
 mod angle;
 mod boundary;
 mod contact;
+mod entering;
 mod gauges;
 mod geometry;
 mod grid;

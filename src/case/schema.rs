@@ -409,11 +409,6 @@ impl Case {
         self.bodies.iter().map(|body| body.particle_counts(&self.grid)).map(|[nx, ny]| nx * ny).sum()
     }
 
-    /// About how many particles enter with inflows.
-    pub fn entering_count_estimate(&self) -> f64 {
-        self.inflows.iter().map(|inflow| inflow.particle_count_estimate(self)).sum()
-    }
-
     /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`. Waves in
     /// bodies that move in implicit steps do not limit it. With inflows, that as they begin. Infinite if there is neither body nor inflow.
     pub fn time_step_estimate_s(&self) -> f64 {

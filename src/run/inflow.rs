@@ -137,9 +137,9 @@ fn depth_at(way: &Way, depths: &[f64], travel: f64) -> f64 {
 /// Across the bed a layer carries its weight: sigma_yy = rho g_y z at the depth z below its surface, with g_y negative. Its shear is what
 /// the bed takes: of a plug, the friction of the bed against its motion, so that every height of it is slowed or driven alike; of a flow
 /// that sticks to the bed, rho g_x z as in steady flow. Along the bed sigma_xx = K sigma_yy with K = nu / (1 - nu), that of a layer that has
-/// never been strained along the bed, or the nearest K for which the stress lies in the cone: on a slope close to the angle of friction only
-/// K near 1 + 2 tan(phi)^2 does. Where no K does, the shear is as large as the cone lets it be. Across the plane the stress is the elastic one,
-/// nu (sigma_xx + sigma_yy), as plane strain has it.
+/// never been strained along the bed, or the nearest K for which the stress lies in the cone. Across the plane the stress is the elastic
+/// one, nu (sigma_xx + sigma_yy). Where no K does, it is half of the sum, to which flow at constant volume brings it in plane strain; and where that
+/// does not either, on slopes steeper than atan(sin(phi)), the shear is as large as the cone lets it be.
 fn layer(case: &Case, inflow: &case::Inflow) -> Option<Stress> {
     let material = case.materials.get(&inflow.material)?;
     let [gx, gy] = scene::gravity(case, case.gravity.inclination_deg);
@@ -163,48 +163,80 @@ fn layer(case: &Case, inflow: &case::Inflow) -> Option<Stress> {
         AnyLaw::DruckerPrager(law) => Some(law),
         _ => None,
     };
-    let (k, share) = in_cone(law.as_ref(), nu, wanted);
+    let Layer { k, across, share } = in_cone(law.as_ref(), nu, wanted);
     let weight = material.density_kg_per_m3 * -gy;
     let [xx, yy] = [-weight * k, -weight];
-    Some(Stress { xx, yy, zz: nu * (xx + yy), xy: weight * share * wanted })
+    Some(Stress { xx, yy, zz: across * (xx + yy), xy: weight * share * wanted })
 }
 
-/// The K nearest to nu / (1 - nu), and the share of the shear (over the pressure across the bed), with which a stress lies in the cone
-/// of a law without cohesion.
-fn in_cone(law: Option<&DruckerPrager>, nu: f64, shear: f64) -> (f64, f64) {
-    let at_rest = nu / (1.0 - nu);
-    let Some(law) = law else { return (at_rest, 1.0) };
-    // Not above zero inside the cone. It is convex in the stress.
-    let beyond = |k: f64, share: f64| {
-        let s = Stress { xx: -k, yy: -1.0, zz: -nu * (1.0 + k), xy: share * shear };
+/// A stress of the layer over the pressure across the bed.
+#[derive(Debug, Clone, Copy)]
+struct Layer {
+    /// sigma_xx over sigma_yy.
+    k: f64,
+    /// sigma_zz over the sum of both.
+    across: f64,
+    /// The shear that is borne, of that which is wanted.
+    share: f64,
+}
+
+impl Layer {
+    /// How far the stress lies beyond the cone of a law without cohesion: not above zero inside. It is convex in the stress.
+    fn beyond(&self, law: &DruckerPrager, shear: f64) -> f64 {
+        let s = Stress { xx: -self.k, yy: -1.0, zz: -self.across * (1.0 + self.k), xy: self.share * shear };
         s.j2().sqrt() + law.friction * s.mean()
-    };
-    let deepest = |share: f64| {
+    }
+
+    /// With the K that lies deepest in the cone.
+    fn deepest(self, law: &DruckerPrager, shear: f64) -> Self {
         let [mut low, mut high] = [0.0, 10.0];
+        let at = |k: f64| Self { k, ..self }.beyond(law, shear);
         for _ in 0..2 * HALVINGS {
             let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
-            if beyond(a, share) < beyond(b, share) { high = b } else { low = a }
+            if at(a) < at(b) {
+                high = b;
+            } else {
+                low = a;
+            }
         }
-        0.5 * (low + high)
-    };
-    let mut share = 1.0;
-    if beyond(deepest(1.0), 1.0) > 0.0 {
+        Self { k: 0.5 * (low + high), ..self }
+    }
+}
+
+/// The stress nearest to that of a layer at rest that lies in the cone; see [`layer`].
+fn in_cone(law: Option<&DruckerPrager>, nu: f64, shear: f64) -> Layer {
+    let at_rest = Layer { k: nu / (1.0 - nu), across: nu, share: 1.0 };
+    let Some(law) = law else { return at_rest };
+    let fits = |l: Layer| l.deepest(law, shear).beyond(law, shear) <= 0.0;
+    let mut chosen = at_rest;
+    if !fits(chosen) {
+        chosen.across = 0.5;
+    }
+    if !fits(chosen) {
         let [mut low, mut high] = [0.0, 1.0];
         for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if beyond(deepest(middle), middle) > 0.0 { high = middle } else { low = middle }
+            let share = 0.5 * (low + high);
+            if fits(Layer { share, ..chosen }) {
+                low = share;
+            } else {
+                high = share;
+            }
         }
-        share = low;
+        chosen.share = low;
     }
-    if beyond(at_rest, share) <= 0.0 {
-        return (at_rest, share);
+    if chosen.beyond(law, shear) <= 0.0 {
+        return chosen;
     }
-    let [mut outside, mut inside] = [at_rest, deepest(share)];
+    let [mut outside, mut inside] = [chosen.k, chosen.deepest(law, shear).k];
     for _ in 0..HALVINGS {
-        let middle = 0.5 * (outside + inside);
-        if beyond(middle, share) > 0.0 { outside = middle } else { inside = middle }
+        let k = 0.5 * (outside + inside);
+        if (Layer { k, ..chosen }).beyond(law, shear) > 0.0 {
+            outside = k;
+        } else {
+            inside = k;
+        }
     }
-    (inside, share)
+    Layer { k: inside, ..chosen }
 }
 
 #[cfg(test)]

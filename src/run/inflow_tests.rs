@@ -80,11 +80,11 @@ fn momentum_and_energy_close_while_it_enters() {
         for d in 0..2 {
             assert!((now.momentum[d] - given[d]).abs() < 1e-10 * ledger.impulse_scale, "{:?} {given:?}", now.momentum);
         }
-        assert!((ledger.entered_mass - now.mass).abs() < 1e-9 && now.mass > 600.0);
+        assert!((ledger.entered_mass - now.mass).abs() < 1e-9 && now.mass > 300.0);
         let balance = sim.energy_balance(&now, [0.0, -3.0]);
         assert_eq!(balance.initial, 0.0);
-        // What the steps leave open; a fifth of the kinetic energy is what a spoiled entry would be.
-        assert!(balance.residual.abs() < 0.005 * balance.released(), "{scheme}: {balance:?}");
+        // Half of what a run may leave open and be trusted.
+        assert!(balance.residual.abs() < 0.01 * balance.released(), "{scheme}: {balance:?}");
         assert!(balance.released() > now.kinetic, "{balance:?}");
     }
 }
@@ -113,7 +113,7 @@ fn numbers_are_the_same_bits_for_any_number_of_threads() {
         })
     };
     let one = run(1);
-    assert!(one.0.len() > 500);
+    assert!(one.0.len() > 250);
     assert!(one == run(3));
 }
 
@@ -139,18 +139,41 @@ fn stress_is_that_of_a_layer_and_lies_in_the_cone() {
         let yields = s.j2().sqrt() + law.friction * s.mean();
         let weight = 1500.0 * 9.81 * libm::cos(f64::to_radians(slope));
         assert!(yields < 1e-9 * weight && (s.yy / -weight - 1.0).abs() < 1e-12, "{slope} {friction}: {s:?}");
-        assert!((s.zz - 0.3 * (s.xx + s.yy)).abs() < 1e-9 * weight);
+        let across = s.zz / (s.xx + s.yy);
+        assert!((across - if slope > 25.0 { 0.5 } else { 0.3 }).abs() < 1e-12, "{slope}: {s:?}");
         let steady = libm::tan(f64::to_radians(slope));
         let wanted = if profile == "plug" { friction } else { steady.min(friction) };
         if slope < 36.0 {
             assert!((s.xy / weight - wanted).abs() < 1e-9, "{slope}: {s:?}");
         } else {
-            // Steeper than the cone: as much as it lets through, with the other stresses alike or nearly so.
-            assert!(s.xy / weight < steady && s.xy / weight > 0.5 && yields > -1e-6 * weight, "{s:?}");
+            // Steeper than a long slope can be: sin(phi) of the pressure, with all other stresses alike.
+            assert!((s.xy / weight - libm::sin(35f64.to_radians())).abs() < 1e-6 && steady > s.xy / weight, "{s:?}");
+            assert!((s.xx / s.yy - 1.0).abs() < 1e-3 && yields > -1e-6 * weight, "{s:?}");
         }
         if slope == 0.0 {
             assert!((s.xx / s.yy - 3.0 / 7.0).abs() < 1e-12);
         }
+    }
+}
+
+#[test]
+fn points_enter_with_the_stress_of_the_layer() {
+    let case = case_of(&[]);
+    let mut sim = opened(&case);
+    while sim.particles().count() < 10 * 8 {
+        sim.step().expect("a step");
+    }
+    // Of the column that has just entered; a step has changed it a little.
+    let newest = sim.particles().map(|(_, p)| p.id).max().expect("points") / 8;
+    let one = layer(&case, &case.inflows[0]).expect("a stress");
+    let (mut found, mut wanted) = ([0.0; 3], [0.0; 3]);
+    for (_, p) in sim.particles().filter(|(_, p)| p.id / 8 == newest) {
+        let (s, below) = (p.state.stress, 0.4 - (f64::from(p.id % 8) + 0.5) * 0.05);
+        found = crate::space::plus(found, [s.xx, s.yy, s.xy]);
+        wanted = crate::space::plus(wanted, [below * one.xx, below * one.yy, below * one.xy]);
+    }
+    for k in 0..3 {
+        assert!((found[k] / wanted[k] - 1.0).abs() < 0.1, "{found:?} {wanted:?}");
     }
 }
 
@@ -257,8 +280,8 @@ fn a_deposit_is_there_and_the_flow_comes_after_the_release() {
             "[[bodies]]\nname = \"lump\"\nmaterial = \"sand\"\nx_m = [3, 3.5]\ny_m = [0, 0.3]\n\n[[inflows]]",
         ),
         ("duration_s = 1.0", "duration_s = 0.5\nstart_time_s = 0.2"),
-        ("[stages.run]", "[stages.settle]\ndamping_per_s = 60\nresidual = 1.0e-2\nmax_time_s = 5\n[stages.run]"),
-        ("inclination_deg = 25", "inclination_deg = 20"),
+        ("[stages.run]", "[stages.settle]\ndamping_per_s = 60\nresidual = 5.0e-2\nmax_time_s = 5\n[stages.run]"),
+        ("inclination_deg = 25", "inclination_deg = 10"),
     ]);
     let (experiment, records, summary) = crate::run::run_in_memory(&case, &mut |_| true).expect("it runs");
     let entered = summary.inflow.as_ref().expect("an inflow");
@@ -300,7 +323,7 @@ fn a_flow_to_the_left_is_the_mirror_image() {
 /// A wall close to the section: what it holds grows back to the section, and the run says so.
 #[test]
 fn a_drowned_section_is_seen() {
-    let wall = "[[boundaries]]\nname = \"wall\"\nkind = \"wall\"\nfoot_m = [1.2, 0]\nheight_m = 1.5\ncontact = \"smooth\"\n\n[stages.run]";
+    let wall = "[[boundaries]]\nname = \"wall\"\nkind = \"wall\"\nfoot_m = [0.8, 0]\nheight_m = 1.8\ncontact = \"smooth\"\n\n[stages.run]";
     let near = case_of(&[("[stages.run]", wall), ("inclination_deg = 25", "inclination_deg = 10")]);
     let (_, _, summary) = crate::run::run_in_memory(&near, &mut |_| true).expect("it runs");
     let beyond = summary.inflow.as_ref().expect("an inflow").velocity_beyond_1;

@@ -1,6 +1,6 @@
 //! Transformations of a case: what is written in it, moved, turned, mirrored, scaled or written in another order.
 
-use checkdam::case::{Body, Boundary, Case, MaterialSide};
+use checkdam::case::{Body, Boundary, Case, MaterialSide, Towards};
 
 /// Factors of mass (with the density), length, time, and of the width alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +77,18 @@ pub fn scaled(case: &Case, by: &Factors) -> Case {
         body.velocity_m_per_s.iter_mut().for_each(|v| scale(speed, v));
         body.mass_kg.iter_mut().for_each(|m| scale(by.of("_kg"), m));
     }
+    for inflow in &mut case.inflows {
+        lengths(&mut inflow.foot_m);
+        inflow.depth_m.iter_mut().chain(inflow.depths_m.iter_mut().flatten()).for_each(|x| scale(length, x));
+        inflow
+            .velocity_m_per_s
+            .iter_mut()
+            .chain(inflow.velocities_m_per_s.iter_mut().flatten())
+            .for_each(|v| scale(speed, v));
+        let times = [&mut inflow.start_time_s, &mut inflow.duration_s];
+        times.into_iter().flatten().chain(inflow.times_s.iter_mut().flatten()).for_each(|t| scale(time, t));
+        inflow.mass_kg.iter_mut().for_each(|m| scale(by.of("_kg"), m));
+    }
     for b in &mut case.boundaries {
         b.point_m.iter_mut().chain(&mut b.foot_m).for_each(|x| lengths(x));
         let own = [&mut b.height_m, &mut b.thickness_m, &mut b.slip_length_m, &mut b.opening_m];
@@ -114,6 +126,7 @@ pub fn moved(case: &Case, by: [f64; 2], with_the_grid: bool) -> Case {
         along(0, &mut body.x_m);
         along(1, &mut body.y_m);
     }
+    case.inflows.iter_mut().for_each(|inflow| both(&mut inflow.foot_m));
     for b in &mut case.boundaries {
         b.point_m.iter_mut().chain(&mut b.foot_m).for_each(both);
     }
@@ -149,6 +162,10 @@ pub fn mirrored(case: &Case) -> Case {
         body.rotation_deg *= -1.0;
         body.velocity_m_per_s[0] *= -1.0;
     }
+    for inflow in &mut case.inflows {
+        inflow.foot_m[0] *= -1.0;
+        inflow.towards = if inflow.towards == Towards::Right { Towards::Left } else { Towards::Right };
+    }
     for b in &mut case.boundaries {
         b.point_m.iter_mut().chain(&mut b.foot_m).for_each(|x| x[0] *= -1.0);
         b.normal_deg.iter_mut().for_each(|a| *a = 180.0 - *a);
@@ -165,7 +182,7 @@ pub fn mirrored(case: &Case) -> Case {
     case
 }
 
-/// Turned about the origin, counter-clockwise, together with gravity. The domain becomes the square that holds it at any angle; windows
+/// Turned about the origin, counter-clockwise, together with gravity; of a case without inflows, whose beds lie along x. The domain becomes the square that holds it at any angle; windows
 /// and stations, which belong to the axes, are left out.
 pub fn turned(case: &Case, angle_deg: f64) -> Case {
     let mut case = case.clone();
@@ -218,6 +235,10 @@ pub fn renamed(case: &Case) -> Case {
     for body in &mut case.bodies {
         other(&mut body.name);
         other(&mut body.material);
+    }
+    for inflow in &mut case.inflows {
+        other(&mut inflow.name);
+        other(&mut inflow.material);
     }
     for Boundary { name, bodies, .. } in &mut case.boundaries {
         other(name);

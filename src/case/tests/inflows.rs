@@ -30,6 +30,9 @@ fn a_case_without_inflows_does_not_know_of_them() {
 const GRAPH: &str = "times_s = [0, 1]\ndepths_m = [0.4, 0.4]\nvelocities_m_per_s = [2, 1]";
 const GIVEN: &str = "depth_m = 0.4\nvelocity_m_per_s = 2\nduration_s = 1.0";
 
+const LAW: &str =
+    "law = \"drucker_prager\"\ndensity_kg_per_m3 = 1500\nyoung_pa = 1.0e6\npoisson = 0.3\nfriction_angle_deg = 35";
+
 /// What is replaced, by what, a text on the line that is reported, and what the report says.
 #[rustfmt::skip]
 const BAD: &[(&str, &str, &str, &[&str])] = &[
@@ -51,7 +54,7 @@ const BAD: &[(&str, &str, &str, &[&str])] = &[
     ("duration_s = 1.0", "duration_s = 1e9", "spacing_m = 0.1", &["particles", "use spacing_m"]),
     ("material = \"sand\"", "material = \"mud\"", "\"mud\"", &["inflows[0].material = \"mud\""]),
     ("name = \"flow\"", "name = \"\"", "name = \"\"", &["a name that is not empty"]),
-    ("law = \"drucker_prager\"\n", "law = \"linear_elastic\"\n", "material = \"sand\"", &["not used by law"]),
+    (LAW, "law = \"linear_elastic\"\ndensity_kg_per_m3 = 1500\nyoung_pa = 1.0e6\npoisson = 0.3", "material = \"sand\"", &["a material that flows"]),
     ("foot_m = [0, 0]", "foot_m = [-0.6, 0]", "foot_m = [-0.6", &["is led from x = -1.1", "five cells behind the section"]),
     ("foot_m = [0, 0]", "foot_m = [5.95, 0]", "foot_m = [5.95", &["out of the domain"]),
     ("foot_m = [0, 0]", "foot_m = [0, 0.2]", "foot_m = [0, 0.2]", &["no plane lies under the section", "use foot_m = [0, 0], on `bed`"]),
