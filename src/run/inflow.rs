@@ -139,7 +139,7 @@ fn depth_at(way: &Way, depths: &[f64], travel: f64) -> f64 {
 /// that sticks to the bed, rho g_x z as in steady flow. Along the bed sigma_xx = K sigma_yy with K = nu / (1 - nu), that of a layer that has
 /// never been strained along the bed, or the nearest K for which the stress lies in the cone. Across the plane the stress is the elastic
 /// one, nu (sigma_xx + sigma_yy). Where no K does, it is half of the sum, to which flow at constant volume brings it in plane strain; and where that
-/// does not either, on slopes steeper than atan(sin(phi)), the shear is as large as the cone lets it be.
+/// does not either, on slopes steeper than the angle of friction, the shear is as large as the cone lets it be.
 fn layer(case: &Case, inflow: &case::Inflow) -> Option<Stress> {
     let material = case.materials.get(&inflow.material)?;
     let [gx, gy] = scene::gravity(case, case.gravity.inclination_deg);

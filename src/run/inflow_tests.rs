@@ -83,8 +83,9 @@ fn momentum_and_energy_close_while_it_enters() {
         assert!((ledger.entered_mass - now.mass).abs() < 1e-9 && now.mass > 300.0);
         let balance = sim.energy_balance(&now, [0.0, -3.0]);
         assert_eq!(balance.initial, 0.0);
-        // Half of what a run may leave open and be trusted.
-        assert!(balance.residual.abs() < 0.01 * balance.released(), "{scheme}: {balance:?}");
+        // What a run may leave open and be trusted, and half of it where boundaries are charged with what the points lose.
+        let open = if scheme.contains("musl") { 0.01 } else { 0.02 };
+        assert!(balance.residual.abs() < open * balance.released(), "{scheme}: {balance:?}");
         assert!(balance.released() > now.kinetic, "{balance:?}");
     }
 }
@@ -146,9 +147,10 @@ fn stress_is_that_of_a_layer_and_lies_in_the_cone() {
         if slope < 36.0 {
             assert!((s.xy / weight - wanted).abs() < 1e-9, "{slope}: {s:?}");
         } else {
-            // Steeper than a long slope can be: sin(phi) of the pressure, with all other stresses alike.
-            assert!((s.xy / weight - libm::sin(35f64.to_radians())).abs() < 1e-6 && steady > s.xy / weight, "{s:?}");
-            assert!((s.xx / s.yy - 1.0).abs() < 1e-3 && yields > -1e-6 * weight, "{s:?}");
+            // Steeper than its angle: tan(phi) of the pressure, with K = 1 + 2 tan(phi)^2, as Mohr and Coulomb have it.
+            let limit = libm::tan(35f64.to_radians());
+            assert!((s.xy / weight - limit).abs() < 1e-6 && steady > limit && yields > -1e-6 * weight, "{s:?}");
+            assert!((s.xx / s.yy - (1.0 + 2.0 * limit * limit)).abs() < 1e-3, "{s:?}");
         }
         if slope == 0.0 {
             assert!((s.xx / s.yy - 3.0 / 7.0).abs() < 1e-12);
@@ -156,25 +158,29 @@ fn stress_is_that_of_a_layer_and_lies_in_the_cone() {
     }
 }
 
+/// The energy of what enters knows its stress: on a level bed every column brings the same.
 #[test]
 fn points_enter_with_the_stress_of_the_layer() {
-    let case = case_of(&[]);
+    let case = case_of(&[("inclination_deg = 25", "inclination_deg = 0")]);
     let mut sim = opened(&case);
-    while sim.particles().count() < 10 * 8 {
+    while sim.ledger().entered_mass < 9.5 * 8.0 * 1.875 {
         sim.step().expect("a step");
     }
-    // Of the column that has just entered; a step has changed it a little.
-    let newest = sim.particles().map(|(_, p)| p.id).max().expect("points") / 8;
     let one = layer(&case, &case.inflows[0]).expect("a stress");
-    let (mut found, mut wanted) = ([0.0; 3], [0.0; 3]);
-    for (_, p) in sim.particles().filter(|(_, p)| p.id / 8 == newest) {
-        let (s, below) = (p.state.stress, 0.4 - (f64::from(p.id % 8) + 0.5) * 0.05);
-        found = crate::space::plus(found, [s.xx, s.yy, s.xy]);
-        wanted = crate::space::plus(wanted, [below * one.xx, below * one.yy, below * one.xy]);
-    }
-    for k in 0..3 {
-        assert!((found[k] / wanted[k] - 1.0).abs() < 0.1, "{found:?} {wanted:?}");
-    }
+    let (mass, volume) = (1.875, 0.05 * 0.05 * 0.5);
+    let energy = |row: u32| {
+        let height = (f64::from(row) + 0.5) * 0.05;
+        let below = 0.4 - height;
+        let stress = Stress { xx: below * one.xx, yy: below * one.yy, zz: below * one.zz, xy: below * one.xy };
+        let state = crate::constitutive::PointState { stress, ..Default::default() };
+        let stored = crate::constitutive::Law::stored_energy(&sim.bodies()[0].law, &state);
+        mass * (0.5 * 2.0 * 2.0 + 9.81 * height) + volume * stored
+    };
+    let column: f64 = (0..8).map(energy).sum();
+    let columns = (sim.ledger().entered_mass / (8.0 * mass)).round();
+    assert!((sim.ledger().entered_energy / (columns * column) - 1.0).abs() < 1e-9, "{column} {columns}");
+    // A thousandth of it is elastic.
+    assert!(one.yy < -14_000.0);
 }
 
 #[test]
