@@ -108,6 +108,13 @@ impl Inflow {
     /// So many have to lie in the domain.
     pub const DOMAIN_CELLS: f64 = 5.0;
 
+    pub(super) fn resolve(&mut self) {
+        if self.times_s.is_none() {
+            self.start_time_s.get_or_insert(0.0);
+        }
+        self.front_angle_deg.get_or_insert(90.0);
+    }
+
     /// 1 along x, -1 against it.
     pub fn direction(&self) -> f64 {
         if self.towards == Towards::Right { 1.0 } else { -1.0 }

@@ -397,6 +397,7 @@ impl Case {
             boundary.resolve(&self.grid);
         }
         self.contacts.iter_mut().for_each(BodyContact::resolve);
+        self.inflows.iter_mut().for_each(Inflow::resolve);
     }
 
     /// The case as a TOML document.
