@@ -131,6 +131,8 @@ pub struct BandSums {
     pub internal_work: f64,
     /// Kinetic energy taken by the PIC share of the velocity update, J.
     pub pic_loss: f64,
+    /// Both together of what is led behind the sections of inflows, J; it is not part of the others.
+    pub led_work: f64,
 }
 
 /// A band and the one before it, which reaches its first nodes.

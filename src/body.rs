@@ -290,6 +290,15 @@ impl Points {
         })
     }
 
+    /// Changes all points in order.
+    pub fn for_each_mut(&mut self, mut change: impl FnMut(&mut Particle)) {
+        for (i, mut p) in self.iter().collect::<Vec<_>>().into_iter().enumerate() {
+            change(&mut p);
+            self.set(i, &p);
+        }
+        self.pad();
+    }
+
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         self.blocks.capacity() * size_of::<Block>()

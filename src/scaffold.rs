@@ -25,6 +25,10 @@ pub(crate) const FLUME: &str = include_str!("scaffold/flume.toml");
 #[cfg(test)]
 pub(crate) const BARRIER: &str = include_str!("scaffold/barrier.toml");
 
+/// A case: a plug that enters on a slope on which it neither gains nor loses speed.
+#[cfg(test)]
+pub(crate) const INFLOW: &str = include_str!("scaffold/inflow.toml");
+
 /// Extent of every scene across the plane, m.
 pub const THICKNESS: f64 = 0.1;
 

@@ -23,6 +23,7 @@ pub mod figure;
 pub mod files_body;
 pub mod files_rigid;
 pub mod from_file;
+pub mod inflow;
 pub mod invariance;
 pub mod law_points;
 pub mod manufactured;
@@ -167,6 +168,7 @@ ladder! { $
     outflow,
     terrain,
     bagnold,
+    inflow,
     files_rigid,
     invariance,
     convergence,

@@ -17,9 +17,11 @@ mod angle;
 mod boundary;
 mod contact;
 mod drawing;
+mod entering;
 mod gauges;
 mod geometry;
 mod grid;
+mod inflow;
 mod material;
 mod parse;
 mod path;
@@ -47,6 +49,8 @@ pub use drawing::{Drawing, Rectangle, Ring};
 pub use gauges::{Gauges, Window};
 pub use grid::{Domain, Filling, Grid};
 pub use material::{Frictional, Law, Material};
+pub use inflow::{Inflow, Profile, Towards};
+pub use material::{DruckerPrager, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
     Body, Case, Gravity, Integration, Kinematics, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics,
@@ -146,7 +150,7 @@ fn read(format: &Format, path: &Path) -> Result<String, (String, String)> {
 const CASE: Format = Format {
     kind: "case file",
     page: "docs/reference/case.md",
-    required: &["title", "gravity", "grid", "domain", "materials", "bodies", "stages"],
+    required: &["title", "gravity", "grid", "domain", "materials", "stages"],
     misplaced: structure::misplaced,
 };
 /// The study file.

@@ -11,6 +11,7 @@ use super::boundary::{Boundary, MaterialSide};
 use super::contact::BodyContact;
 use super::gauges::Gauges;
 use super::grid::{Domain, Filling, Grid};
+use super::inflow::Inflow;
 use super::material::Material;
 use crate::boundary::BoundaryContact;
 use crate::simulation::{OpenedVolume, PicShare, Scheme};
@@ -39,8 +40,12 @@ pub struct Case {
     pub domain: Domain,
     /// Materials by name; bodies refer to them. At least one.
     pub materials: BTreeMap<String, Material>,
-    /// What there is at the start. At least one; together at most 2e7 particles.
+    /// What there is at the start. Left out: nothing but inflows. At most 2e7 particles together with these.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bodies: Vec<Body>,
+    /// Flows that enter through a section during the run. Left out: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inflows: Vec<Inflow>,
     /// Rigid planes, walls and gates.
     #[serde(default)]
     pub boundaries: Vec<Boundary>,
@@ -440,6 +445,7 @@ impl Case {
         }
         self.bodies.iter_mut().for_each(Body::resolve);
         self.contacts.iter_mut().for_each(BodyContact::resolve);
+        self.inflows.iter_mut().for_each(Inflow::resolve);
     }
 
     /// The case as a TOML document.
@@ -453,14 +459,18 @@ impl Case {
     }
 
     /// The time step the run starts with, s: cfl x h / (P-wave speed + particle speed), at most `max_time_step_s`. Waves in
-    /// bodies that move in implicit steps do not limit it. Infinite if there is no body.
+    /// bodies that move in implicit steps do not limit it. With inflows, that as they begin. Infinite if there is neither body nor inflow.
     pub fn time_step_estimate_s(&self) -> f64 {
         let speed = |body: &Body| {
             let explicit = self.materials.get(&body.material).filter(|_| body.integration == Integration::Explicit);
             let wave = explicit.map_or(0.0, Material::p_wave_speed_m_per_s);
             wave + body.fastest_m_per_s()
         };
-        let fastest = self.bodies.iter().map(speed).fold(0.0, f64::max);
+        let entering = |inflow: &Inflow| {
+            let wave = self.materials.get(&inflow.material).map_or(0.0, Material::p_wave_speed_m_per_s);
+            wave + inflow.fastest_m_per_s()
+        };
+        let fastest = self.bodies.iter().map(speed).chain(self.inflows.iter().map(entering)).fold(0.0, f64::max);
         let step = self.numerics.cfl * self.grid.spacing_m / fastest;
         step.min(self.numerics.max_time_step_s.unwrap_or(f64::INFINITY))
     }

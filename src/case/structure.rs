@@ -9,7 +9,7 @@ use super::validate::Problem;
 const TABLES: [&str; 9] =
     ["gravity", "grid", "domain", "materials", "side_walls", "stages", "gauges", "output", "numerics"];
 const TABLES_OF_STAGES: [&str; 3] = ["settle", "tilt", "run"];
-const LISTS: [&str; 3] = ["bodies", "boundaries", "contacts"];
+const LISTS: [&str; 4] = ["bodies", "inflows", "boundaries", "contacts"];
 const LISTS_OF_GAUGES: [&str; 1] = ["windows"];
 const PAIRS: [&str; 9] =
     ["origin_m", "x_m", "y_m", "velocity_m_per_s", "point_m", "foot_m", "centre_m", "window_x_m", "window_y_m"];

@@ -14,6 +14,7 @@
 //! - [`wall_state`]: run-up, and what is behind.
 //! - [`PassageGauge`]: what has passed over, under and through a wall.
 //! - [`velocity_field`]: velocity and stress, cell by cell.
+//! - [`velocity_beyond`]: how the flow moves beyond the section of an inflow.
 //! - `flow`: what of all this flows.
 //!
 //! Elsewhere: probes, sensors, load cells, history output, in-situ post-processing.
@@ -30,6 +31,7 @@ mod peak;
 pub mod penetration;
 mod reaction;
 mod running;
+mod section;
 mod station;
 pub mod structure;
 #[cfg(test)]
@@ -46,6 +48,7 @@ pub use passage::{Passage, PassageGauge};
 pub use peak::Peak;
 pub use reaction::{Reaction, ReactionGauge};
 pub use running::RunningMean;
+pub use section::velocity_beyond;
 pub use station::{StationGauge, StationSample};
 pub use structure::{StructureGauge, StructureSample};
 pub use wall_state::{WallState, wall_state};

@@ -42,7 +42,20 @@ pub struct Ledger {
     pub departed_energy: f64,
     /// Mass that left the domain, kg.
     pub departed_mass: f64,
-    /// Sum of the magnitudes along the axes of the impulses of contacts, gravity and boundaries, N s: the scale on which closure is judged.
+    /// Mass that entered through the sections of inflows, kg.
+    pub entered_mass: f64,
+    /// The part of it that gravity acts on, kg.
+    pub entered_heavy: f64,
+    /// Momentum that came in with it, N s.
+    pub entered_momentum: [f64; 2],
+    /// Kinetic, gravitational and elastic energy that came in with it, J.
+    pub entered_energy: f64,
+    /// Impulse of what is behind the sections on what has entered, N s: what boundaries and drags do to it before it enters is in this, too.
+    pub inflow_impulse: [f64; 2],
+    /// Its work, J.
+    pub inflow_work: f64,
+    /// Sum of the magnitudes along the axes of the impulses of contacts, gravity, boundaries and inflows, N s: the scale on which closure is
+    /// judged.
     pub impulse_scale: f64,
 }
 
@@ -64,9 +77,15 @@ impl Ledger {
         for (d, s) in sum.iter_mut().enumerate() {
             *s = self.gravity[d] + self.damping.impulse[d] + self.side_walls.impulse[d] + self.field.impulse[d]
                 - self.departed_momentum[d]
+                + self.inflow(d)
                 + self.boundaries.iter().map(|b| b.impulse[d]).sum::<f64>();
         }
         sum
+    }
+
+    /// Momentum along an axis that inflows have given: what came in, and what pushed behind it, N s.
+    pub fn inflow(&self, axis: usize) -> f64 {
+        self.entered_momentum[axis] + self.inflow_impulse[axis]
     }
 }
 
@@ -126,7 +145,9 @@ pub struct EnergyBalance {
     pub outflow: f64,
     /// Given to a field of accelerations; negative where it drives the material.
     pub field: f64,
-    /// What was there when the ledger was opened, less all of the above.
+    /// Given by inflows: what came in above the datum, and the work of what pushed behind it. It adds to what was there.
+    pub inflow: f64,
+    /// What was there when the ledger was opened and what inflows gave, less all of the above.
     pub residual: f64,
     /// Total when the ledger was opened.
     pub initial: f64,
@@ -134,8 +155,8 @@ pub struct EnergyBalance {
 
 impl EnergyBalance {
     /// Balances what was there when the ledger was opened against what is there now. `datum` (J) is the gravitational energy of
-    /// the mass at the level counted as zero, opening and now.
-    pub fn new(ledger: &Ledger, opening: &Stock, now: &Stock, datum: [f64; 2]) -> Self {
+    /// the mass at the level counted as zero: opening, now, and of what has entered.
+    pub fn new(ledger: &Ledger, opening: &Stock, now: &Stock, datum: [f64; 3]) -> Self {
         let slip = [&ledger.opening_slip, &ledger.elastic_slip].map(|s| s.iter().sum::<f64>());
         let initial = opening.kinetic + opening.gravitational - datum[0] + (opening.elastic + slip[0]);
         let pairs = || ledger.contacts.iter().map(|c| &c.exchange);
@@ -158,19 +179,26 @@ impl EnergyBalance {
             pic: seeded::times(Seed::LedgerPic, ledger.pic_loss),
             damping: -ledger.damping.work,
             side_walls: -ledger.side_walls.work,
-            outflow: ledger.departed_energy - (datum[0] - datum[1]),
+            outflow: ledger.departed_energy - (datum[0] + datum[2] - datum[1]),
             field: -ledger.field.work,
+            inflow: ledger.entered_energy - datum[2] + ledger.inflow_work,
             residual: 0.0,
             initial,
         };
-        balance.residual = initial - balance.accounted();
+        balance.residual = balance.given() - balance.accounted();
         balance
     }
 
     /// What has been released by now, J: the kinetic and elastic energy at the opening, and what gravity has given since. It does not
-    /// depend on the level at which gravitational energy is zero. What left the domain took its share along.
+    /// depend on the level at which gravitational energy is zero. What left the domain took its share along. Of what has entered, its
+    /// kinetic and elastic energy count, and what gravity and those behind it have given to it.
     pub fn released(&self) -> f64 {
-        self.initial - self.gravitational - self.outflow
+        self.given() - self.gravitational - self.outflow
+    }
+
+    /// What was there when the ledger was opened, and what inflows have given since, J.
+    pub fn given(&self) -> f64 {
+        self.initial + self.inflow
     }
 
     /// Sum of everything but the residual, J.

@@ -5,7 +5,7 @@ use crate::ledger::EnergyBalance;
 use crate::seeded::{self, Seed};
 use serde::Serialize;
 
-/// Energy at the end, as shares of the energy at release. Its level of zero is the barrier's foot, or the lowest corner of what flows as it is
+/// Energy at the end, as shares of the energy at release; with inflows, of that and of all that they have given. Its level of zero is the barrier's foot, or the lowest corner of what flows as it is
 /// drawn, if that is lower or there is no barrier.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -85,10 +85,12 @@ pub(super) fn energy(records: &Records) -> EnergyResults {
         let residuals = records.energy.iter().map(|r| r.balance.residual.abs());
         results.residual_of_released_1 = residuals.fold(0.0, f64::max) / results.released_j;
     }
-    if e.initial == 0.0 {
+    // With inflows, of all that was there at release or has come in since.
+    let all = e.given();
+    if all == 0.0 {
         return results;
     }
-    let share = |x: f64| x / e.initial;
+    let share = |x: f64| x / all;
     results.kinetic_1 = share(e.kinetic);
     results.gravitational_1 = share(e.gravitational);
     results.elastic_1 = share(e.elastic);

@@ -24,19 +24,20 @@ pub(super) struct BarrierTables {
 }
 
 impl BarrierTables {
-    /// Those of a barrier with this number; without one there is a history all the same.
+    /// Those of a barrier with this number; without one there is a history all the same. With an `inflow` the first one has its mass.
     pub fn create(
         directory: &Path,
         number: usize,
         barrier: Option<&Barrier>,
         fields: bool,
+        inflow: bool,
     ) -> Result<Self, OutputError> {
         let suffix = barrier.map_or_else(String::new, |b| suffix(b, number));
         let at = |name: &str| directory.join(format!("{name}{suffix}.csv"));
         let kind = if number == 0 { &columns::HISTORY } else { &columns::FURTHER };
         let (any, bends) = (barrier.is_some(), barrier.is_some_and(|b| b.structure().is_some()));
         Ok(Self {
-            history: OpenTable::create(kind, &at("history"), Names::default())?,
+            history: OpenTable::create(kind, &at("history"), Names { inflow, ..Names::default() })?,
             pressure: optional(any, &columns::PRESSURE, &at("pressure_profile"))?,
             structure: optional(bends, &columns::STRUCTURE, &at("barrier"))?,
             bending: optional(bends, &columns::BENDING, &at("barrier_profile"))?,

@@ -119,6 +119,10 @@ const SAMPLE_STATE: &[Column<HistoryRow>] = columns![HistoryRow;
     "time_step_s", "s", "length of the last time step", |r, _| r.time_step;
 ];
 
+const SAMPLE_INFLOW: &[Column<HistoryRow>] = columns![HistoryRow;
+    "entered_kg", "kg", "mass that has entered with inflows; only where the case has one", |r, _| r.entered;
+];
+
 /// Samples of the gauges.
 pub(super) static HISTORY: TableKind<HistoryRow> = TableKind {
     file: "history.csv",
@@ -131,6 +135,7 @@ pub(super) static HISTORY: TableKind<HistoryRow> = TableKind {
         Group(Per::Table, SAMPLE_CREST),
         Group(Per::Table, SAMPLE_WINDOW),
         Group(Per::Table, SAMPLE_STATE),
+        Group(Per::Inflow, SAMPLE_INFLOW),
     ],
 };
 
@@ -189,7 +194,18 @@ pub(super) static ENERGY: TableKind<EnergyRow> = TableKind {
                 "damping_j", "J", "taken by damping", |r, _| r.balance.damping;
                 "side_walls_j", "J", "dissipated by friction on the side walls", |r, _| r.balance.side_walls;
                 "outflow_j", "J", "carried out of the domain", |r, _| r.balance.outflow;
-                "residual_j", "J", "what was there at release, less all of the above", |r, _| r.balance.residual;
+            ],
+        ),
+        Group(
+            Per::Inflow,
+            columns![EnergyRow;
+                "inflow_j", "J", "given by inflows: kinetic, gravitational and elastic energy of what has entered, and the work of what pushed behind it; only where the case has one", |r, _| r.balance.inflow;
+            ],
+        ),
+        Group(
+            Per::Table,
+            columns![EnergyRow;
+                "residual_j", "J", "what was there at release and what inflows gave, less all of the above", |r, _| r.balance.residual;
             ],
         ),
     ],
@@ -226,6 +242,18 @@ pub(super) static MOMENTUM: TableKind<MomentumRow> = TableKind {
                 "side_walls_y_n_s", "N s", "impulse of the side walls along y", |r, _| r.ledger.side_walls.impulse[1];
                 "outflow_x_n_s", "N s", "momentum along x carried out of the domain, as a loss", |r, _| outflow(r);
                 "outflow_y_n_s", "N s", "momentum along y carried out of the domain, as a loss", |r, _| -r.ledger.departed_momentum[1];
+            ],
+        ),
+        Group(
+            Per::Inflow,
+            columns![MomentumRow;
+                "inflow_x_n_s", "N s", "momentum along x that came in with inflows, and impulse of what pushed behind it; only where the case has one", |r, _| r.ledger.inflow(0);
+                "inflow_y_n_s", "N s", "the same along y: what the bed bears of the cells behind the section comes in as a load", |r, _| r.ledger.inflow(1);
+            ],
+        ),
+        Group(
+            Per::Table,
+            columns![MomentumRow;
                 "residual_x_n_s", "N s", "gained along x less all impulses", |r, _| r.residual[0];
                 "residual_y_n_s", "N s", "gained along y less all impulses", |r, _| r.residual[1];
             ],

@@ -43,6 +43,7 @@ fn columns_of_boundaries_and_surfaces_stand_once_for_each() {
     let names = Names {
         boundaries: vec!["bed".into(), "wall".into()],
         surfaces: vec!["bed".into(), "wall".into(), "sand_on_fence".into()],
+        ..Names::default()
     };
     let header = ENERGY.header(&names);
     assert_eq!(header[5..8], ["friction_bed_j", "friction_wall_j", "friction_sand_on_fence_j"]);

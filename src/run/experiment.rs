@@ -5,6 +5,7 @@
 use super::ProgressFn;
 use super::clock::{Clock, METER_HZ};
 use super::gauges::{Barrier, Gauges, Named, of_barrier};
+use super::inflow;
 use super::records::{EnergyRow, HistoryRow, MomentumRow, Recorder, Rows};
 use super::rest::RestWatch;
 use super::scales::Scales;
@@ -12,7 +13,7 @@ use super::scene;
 use super::stage::{End, RunError, Stage, StageFacts};
 use crate::case::Case;
 use crate::gauge::flow::{self, Motion};
-use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, WindowGauge, velocity_field};
+use crate::gauge::{BarrierGauge, BaseGauge, StructureGauge, WindowGauge, velocity_beyond, velocity_field};
 use crate::output::OutputError;
 use crate::seeded::{self, Seed};
 use crate::simulation::Simulation;
@@ -27,6 +28,8 @@ pub struct Experiment {
     pub(super) stopped: bool,
     /// Most energy that had been released by any row of the ledgers that numbers with a name come from, J.
     pub(super) released: f64,
+    /// Least velocity beyond the section of an inflow over that at which it enters; 1 without one.
+    pub(super) velocity_beyond: f64,
 }
 
 /// Gauges of tables that are read at another rate than the numbers with a name come from.
@@ -38,9 +41,17 @@ struct Tables {
 impl Experiment {
     /// Sets up a case that has passed validation.
     pub fn new(case: &Case) -> Self {
-        let simulation = Simulation::new(scene::build(case));
+        let simulation = inflow::simulation(case);
         let gauges = Gauges::new(case, &simulation);
-        Self { case: case.clone(), simulation, gauges, facts: StageFacts::default(), stopped: false, released: 0.0 }
+        Self {
+            case: case.clone(),
+            simulation,
+            gauges,
+            facts: StageFacts::default(),
+            stopped: false,
+            released: 0.0,
+            velocity_beyond: 1.0,
+        }
     }
 
     /// The simulation.
@@ -126,6 +137,7 @@ impl Experiment {
         let bodies = self.case.bodies.iter().filter(|b| !b.weightless && flows(&b.name));
         let down = [sin, -cos];
         let corners = bodies.filter_map(|b| Some(b.drawing()?.farthest_m(down)));
+        let corners = corners.chain(self.case.inflows.iter().map(|i| i.foot_m));
         let foot = self.barrier().map(|g| g.face(&self.simulation).foot().into());
         let lower = |a: [f64; 2], b: [f64; 2]| if level(&b) < level(&a) { b } else { a };
         let found = foot.into_iter().chain(corners).reduce(lower).filter(|_| !seeded::is(Seed::RunDatum));
@@ -152,6 +164,7 @@ impl Experiment {
         self.simulation.set_time(0.0);
         self.simulation.open_ledger();
         self.simulation.release_gates();
+        self.simulation.open_inflows();
         self.gauges.open(&self.simulation);
         &self.simulation
     }
@@ -204,10 +217,11 @@ impl Experiment {
             }
             self.simulation.step()?;
             self.read_step();
-            rest.gate |= self.is_gated();
+            rest.gate |= self.is_gated() || self.simulation.is_entering();
             recorder.step(&self.simulation)?;
             if meter.strikes(self.simulation.time()) {
                 let (row, motion) = self.sample(recorder)?;
+                self.look_beyond();
                 let weight = motion.mass * self.case.gravity.magnitude_m_per_s2;
                 rest.watch(&row, motion.momentum, initial.max(self.released).max(f64::MIN_POSITIVE), weight);
                 if meter.strikes_ten() {
@@ -244,6 +258,22 @@ impl Experiment {
             self.facts.shortest = Some(step);
         }
         self.gauges.after_step(sim);
+    }
+
+    /// How the flow moves beyond the sections of inflows that have filled that length.
+    fn look_beyond(&mut self) {
+        let sim = &self.simulation;
+        for (inflow, own) in sim.inflows().zip(&self.case.inflows) {
+            let (time, [_, end], length) = (sim.time(), inflow.way.span(), own.deepest_m());
+            let speed = inflow.way.speed(time);
+            // Twice that length: the wedge of a front is not the flow.
+            if time > end || speed <= 0.0 || inflow.way.travel(time) < 2.0 * length + own.wedge_m() {
+                continue;
+            }
+            if let Some(beyond) = velocity_beyond(sim, inflow, length) {
+                self.velocity_beyond = self.velocity_beyond.min(beyond / speed);
+            }
+        }
     }
 
     /// Whether a gate that is still opening held material in the last step.

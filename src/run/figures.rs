@@ -67,7 +67,8 @@ pub(super) fn draw_figures(
             if k == 0 { Some(summary) } else { None },
         ));
     }
-    if summary.energy.initial_j > 0.0 && has_rows("energy.csv") {
+    // Shares of the energy at release say nothing where more comes in.
+    if summary.energy.initial_j > 0.0 && case.inflows.is_empty() && has_rows("energy.csv") {
         results.push(plot::energy_shares::draw(at("energy.csv"), at("energy_shares.svg")));
     }
     if at("field.csv").exists() && has_rows("field.csv") {

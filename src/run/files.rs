@@ -118,7 +118,8 @@ impl Folder {
         let body = |k: usize| file_name(&sim.bodies()[k].name);
         let pairs = sim.contacts().map(|c| format!("{}_on_{}", body(c.bodies[0]), body(c.bodies[1])));
         let surfaces = boundaries.iter().cloned().chain(pairs).collect();
-        let names = Names { boundaries, surfaces };
+        let inflow = sim.inflows().next().is_some();
+        let names = Names { boundaries, surfaces, inflow };
         let at = |name: &str| directory.join(name);
         let frames = if experiment.vtk_interval() > 0.0 {
             let frames = at("vtk");
@@ -140,9 +141,9 @@ impl Folder {
         Ok(Self {
             directory: directory.to_path_buf(),
             lock: lock.clone(),
-            first: BarrierTables::create(directory, 0, barriers.first(), fields)?,
+            first: BarrierTables::create(directory, 0, barriers.first(), fields, inflow)?,
             further: further
-                .map(|(k, b)| BarrierTables::create(directory, k, Some(b), fields))
+                .map(|(k, b)| BarrierTables::create(directory, k, Some(b), fields, inflow))
                 .collect::<Result<_, _>>()?,
             energy: OpenTable::create(&columns::ENERGY, &at("energy.csv"), names.clone())?,
             momentum: OpenTable::create(&columns::MOMENTUM, &at("momentum.csv"), names)?,

@@ -245,6 +245,7 @@ impl Gauges {
             front: self.front.sample(simulation, &self.structures),
             window: self.window.as_mut().map(|w| w.sample(simulation, &self.structures)).unwrap_or_default(),
             penetration: penetration::of_boundaries(simulation).0,
+            entered: simulation.ledger().entered_mass,
             ..HistoryRow::default()
         };
         let own = HistoryRow { time: row.time, ..HistoryRow::default() };

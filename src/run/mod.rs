@@ -11,11 +11,13 @@ mod claim;
 mod clock;
 mod columns;
 mod deposit;
+mod entered;
 mod experiment;
 mod figures;
 pub mod files;
 mod filling;
 mod gauges;
+pub mod inflow;
 #[cfg(test)]
 mod invariance_tests;
 mod means;

@@ -35,6 +35,10 @@ pub enum Kind {
     Elastic,
     /// A gate had not opened to its end.
     Opening,
+    /// An inflow had not ended.
+    Unfinished,
+    /// A deposit had grown back to the section of an inflow.
+    Drowned,
     /// Mass went through a barrier.
     Through,
     /// A barrier that is a body is torn.

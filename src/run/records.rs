@@ -41,6 +41,8 @@ pub struct HistoryRow {
     pub penetration: f64,
     /// Time step, s.
     pub time_step: f64,
+    /// Mass that has entered with inflows, kg.
+    pub entered: f64,
 }
 
 /// Momentum by agent at one moment, N s.

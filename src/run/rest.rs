@@ -17,13 +17,13 @@ const REST_WINDOW: f64 = 0.1;
 /// Time after release before which nothing counts as rest, s.
 const REST_NOT_BEFORE: f64 = 0.5;
 
-/// Decides whether the material is at rest: little kinetic energy, balanced forces, a force that no longer changes, and no gate that is
-/// still opening and holds it.
+/// Decides whether the material is at rest: little kinetic energy, balanced forces, a force that no longer changes, no gate that is
+/// still opening and holds it, and no inflow that has not ended.
 #[derive(Debug, Default)]
 pub(super) struct RestWatch {
     /// Kinetic energy at the last sample, J.
     pub kinetic: f64,
-    /// Whether a gate that is still opening held material since the last window.
+    /// Whether a gate that is still opening held material since the last window, or an inflow had not ended.
     pub gate: bool,
     window: Vec<f64>,
     /// When the last window ended, s.

@@ -23,9 +23,11 @@ pub struct Scales {
     /// Where the flow runs along x: 1 to the right, -1 to the left. Towards the first barrier that is a wall or a body; without one, where
     /// gravity points along x, else where the material moves at the start, else to the right.
     pub flow_direction_1: f64,
-    /// Length behind the front over which its velocity is averaged, m; its depth is the largest within twice that length.
+    /// Length behind the front over which its velocity is averaged, m; its depth is the largest within twice that length. Of an inflow it is the
+    /// depth of that, if it is more than that of what lies there at the start.
     pub front_length_m: f64,
-    /// Force on a barrier from which the flow counts as arrived, N.
+    /// Force on a barrier from which the flow counts as arrived, N: a 600th of the weight of what flows at the start, with a square of the depth
+    /// of each inflow.
     pub arrival_force_n: f64,
     /// Density of what flows, at the start, kg/m3.
     pub flow_density_kg_per_m3: f64,
@@ -40,10 +42,20 @@ impl Scales {
     /// Those of a case whose bodies have not moved yet; `structures` are the bodies, by index, that do not flow, and `barrier` is the face
     /// of the first barrier.
     pub(super) fn new(case: &Case, simulation: &Simulation, structures: &[usize], barrier: Option<&Boundary>) -> Self {
-        let Released { mass, volume, centre, momentum } = released(simulation, structures);
+        let Released { mut mass, mut volume, mut centre, mut momentum } = released(simulation, structures);
         let g = case.gravity.magnitude_m_per_s2;
         let gauges = &case.gauges;
-        let area = volume / simulation.thickness();
+        let mut area = volume / simulation.thickness();
+        // Of what flows in, a square of its depth.
+        for inflow in &case.inflows {
+            let deep = inflow.deepest_m();
+            let square = deep * deep * case.grid.thickness_m;
+            let own = square * case.materials.get(&inflow.material).map_or(0.0, |m| m.density_kg_per_m3);
+            centre = (mass * centre + own * inflow.foot_m[0]) / (mass + own);
+            momentum += own * inflow.direction() * inflow.fastest_m_per_s();
+            (mass, volume) = (mass + own, volume + square);
+            area = area.max((deep / FRONT) * (deep / FRONT));
+        }
         let face = barrier.filter(|b| matches!(b.solid, Solid::Slab { .. }));
         let down = libm::sin(case.gravity.inclination_deg.to_radians());
         let ways = [face.map_or(0.0, |b| b.foot().x - centre), down * f64::from(u8::from(g > 0.0)), momentum];

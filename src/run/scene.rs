@@ -39,7 +39,7 @@ pub fn gravity(case: &Case, angle_deg: f64) -> [f64; 2] {
     [g * libm::sin(angle), -g * libm::cos(angle)]
 }
 
-fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
+pub(super) fn body(case: &Case, b: &case::Body) -> (Body, Vec<Particle>) {
     let material = &case.materials[&b.material];
     let Filled { places, volume, spacing } = filled(case, b);
     let centre = b.drawing().map_or([0.0; 2], |d| d.centroid_m());
@@ -132,7 +132,7 @@ fn uniform(seed: u64, counter: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-fn law(material: &case::Material) -> AnyLaw {
+pub(super) fn law(material: &case::Material) -> AnyLaw {
     let young = seeded::times(Seed::CaseYoung, material.young_pa);
     let poisson = seeded::times(Seed::CasePoisson, material.poisson);
     let elastic = LinearElastic::new(young, poisson);

@@ -3,13 +3,14 @@
 pub use super::balances::{EnergyResults, MomentumResults};
 pub use super::barrier::BarrierResults;
 pub use super::deposit::{DepositResults, FurtherBase};
+pub use super::entered::InflowResults;
 use super::experiment::Experiment;
 use super::means::arrival;
 pub use super::passage::FrontPassage;
 use super::records::{HistoryRow, Records};
 use super::scales::Scales;
 use super::structure::{self, StructureResults};
-use super::{balances, barrier, deposit};
+use super::{balances, barrier, deposit, entered};
 use crate::case::Case;
 use crate::seeded::{self, Seed};
 use serde::Serialize;
@@ -47,6 +48,9 @@ pub struct Summary {
     /// The bases after the first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub further_bases: Vec<FurtherBase>,
+    /// What has entered with inflows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inflow: Option<InflowResults>,
     /// Energy at the end.
     pub energy: EnergyResults,
     /// Momentum at the end.
@@ -128,6 +132,7 @@ impl Summary {
             further_barriers: further_barriers(experiment, records),
             deposit: deposit::results(experiment, records),
             further_bases: deposit::further_bases(experiment, records),
+            inflow: entered::results(experiment),
             energy: balances::energy(records),
             momentum: balances::momentum(records),
             front,
@@ -146,6 +151,11 @@ impl Summary {
     /// The front just before it reached the first barrier.
     pub fn arriving_front(&self) -> Option<&FrontPassage> {
         self.front.get(self.arriving?)
+    }
+
+    /// Mass at the start and of what has entered, kg.
+    pub(super) fn mass_kg(&self) -> f64 {
+        self.stepping.mass_kg + self.inflow.as_ref().map_or(0.0, |i| i.entered_kg)
     }
 
     /// As a TOML document.

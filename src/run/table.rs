@@ -20,6 +20,8 @@ pub struct Column<R: 'static> {
 pub(super) enum Per {
     /// Once.
     Table,
+    /// Once if the case has an inflow.
+    Inflow,
     /// Once for each boundary, whose name replaces `{boundary}`.
     Boundary,
     /// Once for each boundary, then for each contact of two bodies, `A_on_B`; its name replaces `{surface}`.
@@ -45,13 +47,16 @@ pub(super) struct Names {
     pub boundaries: Vec<String>,
     /// Of the boundaries and of the contacts of two bodies.
     pub surfaces: Vec<String>,
+    /// Whether there is an inflow.
+    pub inflow: bool,
 }
 
 impl Names {
     /// Names for columns that stand so often, and what they replace.
     fn of(&self, per: Per) -> (&str, &[String]) {
         match per {
-            Per::Table => ("", const { &[String::new()] }),
+            Per::Inflow if !self.inflow => ("", &[]),
+            Per::Table | Per::Inflow => ("", const { &[String::new()] }),
             Per::Boundary => ("{boundary}", &self.boundaries),
             Per::Surface => ("{surface}", &self.surfaces),
         }

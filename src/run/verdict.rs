@@ -30,6 +30,9 @@ const FRONT_CELLS: f64 = 2.0;
 /// What the points say that they fill may differ so much from the cells that they fill inside the flow, either way. Static force
 /// goes with the square of the depth: twice as much, what the grid makes of the static force from 20 to 10 mm (error-bars.md).
 const VOLUME_OFF: f64 = 0.1;
+/// Material just beyond a section moves at least at this share of the velocity at which it enters. Between a supercritical flow and the
+/// deposit that it runs into, the velocity falls to a small part of that (a shock); half of it lies between the two.
+const DROWNED: f64 = 0.5;
 /// Cells inside the flow from which volumes are compared: fewer say nothing.
 const INSIDE_CELLS: usize = 20;
 /// PIC is there to take noise, not energy: it may take as much as grids of 5 and 10 mm differ in the depth of a front (error-bars.md).
@@ -90,6 +93,20 @@ fn ending(summary: &Summary, experiment: &Experiment, end: Option<End>, add: &mu
             add(Kind::Opening, format!("gate `{}` was still opening when the run ended", gate.name));
         }
     }
+    if let Some(inflow) = &summary.inflow {
+        for name in inflow.unfinished.iter().filter(|_| end.is_some()) {
+            add(Kind::Unfinished, format!("inflow `{name}` had not ended when the run ended"));
+        }
+        let beyond = inflow.velocity_beyond_1;
+        if beyond.is_nan() || beyond < DROWNED {
+            let text = format!(
+                "beyond the section of an inflow the material had slowed down to {:.0} % of the velocity at which it enters: the section was \
+                 drowned, and what followed was pushed into a deposit; move the section upstream",
+                100.0 * beyond
+            );
+            add(Kind::Drowned, text);
+        }
+    }
     let (wanted, reached) = (summary.case.stages.settle.as_ref(), summary.stepping.settle_residual);
     if let Some(wanted) = wanted.map(|s| s.residual)
         && (reached.is_nan() || reached > wanted)
@@ -104,7 +121,7 @@ fn ending(summary: &Summary, experiment: &Experiment, end: Option<End>, add: &mu
 
 fn ledgers(summary: &Summary, experiment: &Experiment, records: &Records, add: &mut impl FnMut(Kind, String)) {
     let h = experiment.simulation().spacing();
-    let mass = summary.stepping.mass_kg;
+    let mass = summary.mass_kg();
     // A motion that lowers the material by less than a cell is none that the grid resolves.
     let least = mass * summary.case.gravity.magnitude_m_per_s2 * h;
     let released = summary.energy.released_j.max(least);
@@ -190,7 +207,7 @@ fn cells(summary: &Summary, add: &mut impl FnMut(Kind, String)) {
 }
 
 fn barriers(summary: &Summary, experiment: &Experiment, at_rest: bool, add: &mut impl FnMut(Kind, String)) {
-    let all = summary.stepping.mass_kg;
+    let all = summary.mass_kg();
     if let Some(b) = &summary.barrier {
         b.note("the barrier", all * MASS_LOST, add);
     }

@@ -50,6 +50,9 @@ faults! {
     CaseSpin, "case.spin", Times(1.03), "rotation of a body at the start";
     CaseGradient, "case.gradient", Exchanged, "shears of the velocity of a body at the start";
     CaseTerrain, "case.terrain", Exchanged, "frictions of the pieces of a terrain, first and last";
+    CaseInflowVelocity, "case.inflow_velocity", Times(1.03), "velocity of an inflow";
+    CaseInflowDepth, "case.inflow_depth", Times(1.03), "depth of an inflow";
+    CaseInflowFoot, "case.inflow_foot", Wrong, "foot of an inflow's section, a tenth of a cell too far along x";
     CasePic, "case.pic", Dropped, "share of PIC";
 
     RunDamping, "run.damping", Wrong, "damping of the settling stays on";
@@ -162,6 +165,9 @@ faults! {
     LedgerPic, "ledger.pic", Times(1.03), "energy that PIC took";
     LedgerOutflow, "ledger.outflow", Times(1.03), "energy carried out of the domain";
     LedgerOutflowMass, "ledger.outflow_mass", Times(1.03), "mass that left the domain";
+    LedgerInflow, "ledger.inflow", Times(1.03), "energy that comes in with an inflow";
+    LedgerInflowMass, "ledger.inflow_mass", Times(1.03), "mass that entered";
+    LedgerInflowMomentum, "ledger.inflow_momentum", Times(1.03), "momentum that came in with an inflow";
     LedgerWork, "ledger.work", Times(1.03), "work of a distributed force";
 
     BoundarySurfaceWork, "boundary.surface_work", Times(1.03), "remapped work at a crossing";
@@ -204,6 +210,8 @@ faults! {
     SimulationTaken, "simulation.taken", Times(1.03), "energy that implicit steps of a mesh take";
     SimulationSurface, "simulation.surface", Times(1.05), "0.7 of the bound of the volume at a surface";
     SimulationOccupied, "simulation.occupied", Times(1.05), "volume of a cell in that bound";
+    SimulationInflowStress, "simulation.inflow_stress", Dropped, "stress of what enters";
+    SimulationInflowColumn, "simulation.inflow_column", Dropped, "one of 32 columns of an inflow";
 
     StudyColumns, "study.columns", Exchanged, "static force and shear in the table of a study";
     StudyDissipated, "study.dissipated", Dropped, "elastic energy in the share that was dissipated";

@@ -36,6 +36,8 @@ const EXACT: &[&str] = &[
     "output::vtk::tests::points_and_fields_are_where",
     "run::clock::tests::",
     "run::filling::tests::",
+    "run::inflow::tests::a_free_plug",
+    "run::inflow::tests::points_enter_with",
     "run::gauges::tests::a_further_barrier_changes_nothing",
     "run::gauges::tests::each_of_two_bases",
     "run::means::tests::",

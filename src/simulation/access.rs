@@ -40,7 +40,7 @@ impl Simulation {
 
     /// Bodies.
     pub fn bodies(&self) -> &[Body] {
-        &self.bodies
+        &self.bodies[..self.seen]
     }
 
     /// Boundaries.
@@ -128,18 +128,18 @@ impl Simulation {
 
     /// All points as (body index, point), in a fixed order that changes with sorting.
     pub fn particles(&self) -> impl Iterator<Item = (usize, Particle)> {
-        self.fields.iter().flat_map(VelocityField::particles)
+        self.fields.iter().flat_map(VelocityField::particles).filter(|(body, _)| *body < self.seen)
     }
 
     /// The same points block by block, for those who read two of their numbers and not all: body index, block, number of real
     /// points.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, &Block, usize)> {
-        self.fields.iter().flat_map(VelocityField::blocks)
+        self.fields.iter().flat_map(VelocityField::blocks).filter(|(body, ..)| *body < self.seen)
     }
 
     /// The same with the numbers of the points within their body: body index, block, numbers, number of real points.
     pub fn numbered_blocks(&self) -> impl Iterator<Item = (usize, &Block, &[u32; LANES], usize)> {
-        self.fields.iter().flat_map(VelocityField::numbered_blocks)
+        self.fields.iter().flat_map(VelocityField::numbered_blocks).filter(|(body, ..)| *body < self.seen)
     }
 
     /// Largest velocity component of any point, m/s.
@@ -315,6 +315,7 @@ impl Simulation {
     /// Energy by mechanism since the ledger was opened, with gravitational energy counted from the level of `datum` (m).
     pub fn energy_balance(&self, now: &Stock, datum: [f64; 2]) -> EnergyBalance {
         let level = potential(self.forces.gravity, datum);
-        EnergyBalance::new(&self.ledger, &self.opening, now, [self.opening.heavy * level, now.heavy * level])
+        let heavy = [self.opening.heavy, now.heavy, self.ledger.entered_heavy];
+        EnergyBalance::new(&self.ledger, &self.opening, now, heavy.map(|heavy| heavy * level))
     }
 }

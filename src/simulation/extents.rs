@@ -40,7 +40,8 @@ impl Simulation {
             let mut found = Vec::with_capacity(points.map(|points| points.all().len().div_ceil(RUN)).sum());
             for (f, field) in (0..).zip(&self.fields) {
                 for (b, band) in (0..).zip(&field.bands) {
-                    for ((k, points), &body) in (0..).zip(&band.points).zip(&field.members) {
+                    let seen = (0..).zip(&band.points).zip(&field.members).filter(|(_, body)| **body < self.seen);
+                    for ((k, points), &body) in seen {
                         found.extend((0..).step_by(RUN).zip(points.all().chunks(RUN)).map(|(first, blocks)| {
                             let count = (points.len() - first as usize * LANES).min(RUN * LANES);
                             let [x, y] = [span(blocks, 0), span(blocks, 1)];

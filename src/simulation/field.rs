@@ -38,6 +38,7 @@ impl VelocityField {
         }
         let mut points = Points::for_law(&body.law);
         particles.iter().for_each(|p| points.push(p));
+        self.bands[1..].iter_mut().for_each(|band| band.points.push(Points::for_law(&body.law)));
         self.bands[0].points.push(points);
         self.bodies.push(body);
         self.members.push(index);

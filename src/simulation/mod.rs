@@ -19,6 +19,7 @@ use coupling::Coupling;
 use failure::{CRUSHED, LOST};
 use field::VelocityField;
 use implicit::Turn;
+use inflow::Entering;
 use lagrangian::{Acting, LagrangianBody};
 use occupied::Occupied;
 use stages::Stage;
@@ -33,6 +34,7 @@ mod extents;
 mod failure;
 mod field;
 mod implicit;
+mod inflow;
 mod lagrangian;
 mod occupied;
 mod scene;
@@ -45,6 +47,7 @@ mod sweep;
 pub use coupling::ContactPoint;
 pub use extents::Extent;
 pub use failure::StepFailure;
+pub use inflow::{Coming, Inflow, Way};
 pub use lagrangian::HELD_WITHIN;
 pub use scene::{Acceleration, AccelerationField, Numerics, OpenedVolume, PicShare, Scene, Scheme};
 
@@ -59,6 +62,11 @@ pub struct Simulation {
     thickness: f64,
     numerics: Numerics,
     bodies: Vec<Body>,
+    /// How many of them are seen: those after them are what is led behind the sections of inflows.
+    seen: usize,
+    inflows: Vec<Entering>,
+    /// Whether inflows have been opened.
+    entering: bool,
     side_friction: f64,
     boundaries: Vec<Boundary>,
     forces: BodyForces,
@@ -133,6 +141,9 @@ impl Simulation {
             occupied: Occupied::default(),
             stale: true,
             structures: structure::of(&fields, &boundaries),
+            seen: bodies.len(),
+            inflows: Vec::new(),
+            entering: false,
             bodies,
             boundaries,
             bands: vec![Vec::new(); fields.len()],
@@ -153,6 +164,9 @@ impl Simulation {
     /// One time step: the stages of [`Scheme`], then the books.
     pub fn step(&mut self) -> Result<(), StepFailure> {
         self.extents.take();
+        if self.entering {
+            self.admit();
+        }
         for k in 0..self.fields.len() {
             self.fields[k].departed.clear();
             if self.fields[k].drift > self.lattice.spacing {
@@ -170,6 +184,9 @@ impl Simulation {
         } else {
             self.sweep_coupled(stages, dt);
             self.surface.keep(&mut self.fields, &self.boundaries);
+        }
+        if self.entering {
+            self.lead(dt);
         }
         self.time += dt;
         self.steps += 1;
@@ -336,6 +353,7 @@ impl Simulation {
                 kinetic += s.kinetic;
                 self.ledger.internal_work += s.internal_work;
                 self.ledger.pic_loss += s.pic_loss;
+                self.ledger.inflow_work -= s.led_work;
                 speed = speed.max(s.max_speed);
                 moved = moved.max(s.max_displacement);
                 smallest = smallest.min(s.min_volume_ratio);

@@ -64,6 +64,8 @@ pub(super) struct Step<'a> {
     forces: BodyForces,
     field: Option<&'a AccelerationField>,
     side_friction: f64,
+    /// Bodies from this one on are led, see `inflow`.
+    seen: usize,
     time: f64,
     velocity: VelocityUpdate,
     stress: StressUpdate,
@@ -79,6 +81,7 @@ impl Simulation {
             forces: self.forces,
             field: self.field.as_ref(),
             side_friction: self.side_friction,
+            seen: self.seen,
             time: self.time,
             velocity: VelocityUpdate {
                 dt,
@@ -130,17 +133,18 @@ impl Step<'_> {
         if self.velocity.remap {
             remapped.fill([0.0; 2]);
         }
-        let (mut sums, mut moved) = (BandSums::default(), &mut moved[..]);
-        for (body, points) in of.bodies.iter().zip(&mut band.points) {
+        let (mut sums, mut led, mut moved) = (BandSums::default(), 0.0, &mut moved[..]);
+        for ((body, member), points) in of.bodies.iter().zip(&of.members).zip(&mut band.points) {
             let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
             let transfer = self.transfer(map, body);
             let part = transfer.gather_velocity(self.velocity, motion, points, displacement, remapped);
             sums.kinetic += part.kinetic;
-            sums.pic_loss += part.pic_loss;
+            *if *member < self.seen { &mut sums.pic_loss } else { &mut led } += part.pic_loss;
             sums.max_speed = sums.max_speed.max(part.max_speed);
             sums.max_displacement = sums.max_displacement.max(part.max_displacement);
         }
+        sums.led_work = led + if self.velocity.move_now { band.sums.led_work } else { 0.0 };
         sums.internal_work = band.sums.internal_work;
         sums.min_volume_ratio = band.sums.min_volume_ratio;
         band.sums = sums;
@@ -150,16 +154,18 @@ impl Step<'_> {
         let map = NodeMap::new(&of.grid, band.first_node);
         let Workspace { strain_velocity: velocity, moved, .. } = &mut band.work;
         let mut moved = &mut moved[..];
-        let (mut work, mut smallest) = (0.0, f64::INFINITY);
-        for (body, points) in of.bodies.iter().zip(&mut band.points) {
+        let (mut work, mut led, mut smallest) = (0.0, 0.0, f64::INFINITY);
+        for ((body, member), points) in of.bodies.iter().zip(&of.members).zip(&mut band.points) {
             let (displacement, rest) = moved.split_at_mut(points.block_count());
             moved = rest;
             let transfer = self.transfer(map, body);
             let part = transfer.update_stress(body.law, self.stress, velocity, points, displacement);
-            work += part.internal_work;
+            *if *member < self.seen { &mut work } else { &mut led } += part.internal_work;
             smallest = smallest.min(part.min_volume_ratio);
         }
         band.sums.internal_work = work;
+        // With the stress first, the velocities come after it, and add to it; else before.
+        band.sums.led_work = led + if self.stress.move_after { band.sums.led_work } else { 0.0 };
         band.sums.min_volume_ratio = smallest;
     }
 

@@ -28,4 +28,5 @@ pub mod pic;
 pub mod self_weight;
 pub mod sliding_block;
 pub mod slip;
+pub mod uniform_flow;
 pub mod vortex;

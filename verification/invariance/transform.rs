@@ -1,6 +1,6 @@
 //! Transformations of a case: what is written in it, moved, turned, mirrored, scaled or written in another order.
 
-use checkdam::case::{Body, Boundary, Case, MaterialSide, Rectangle};
+use checkdam::case::{Body, Boundary, Case, MaterialSide, Rectangle, Towards};
 
 /// Factors of mass (with the density), length, time, and of the width alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,6 +89,18 @@ pub fn scaled(case: &Case, by: &Factors) -> Case {
         body.velocity_gradient_per_s.iter_mut().flatten().flatten().for_each(|g| scale(1.0 / time, g));
         body.mass_kg.iter_mut().for_each(|m| scale(by.of("_kg"), m));
     }
+    for inflow in &mut case.inflows {
+        lengths(&mut inflow.foot_m);
+        inflow.depth_m.iter_mut().chain(inflow.depths_m.iter_mut().flatten()).for_each(|x| scale(length, x));
+        inflow
+            .velocity_m_per_s
+            .iter_mut()
+            .chain(inflow.velocities_m_per_s.iter_mut().flatten())
+            .for_each(|v| scale(speed, v));
+        let times = [&mut inflow.start_time_s, &mut inflow.duration_s];
+        times.into_iter().flatten().chain(inflow.times_s.iter_mut().flatten()).for_each(|t| scale(time, t));
+        inflow.mass_kg.iter_mut().for_each(|m| scale(by.of("_kg"), m));
+    }
     for b in &mut case.boundaries {
         b.point_m.iter_mut().chain(&mut b.foot_m).chain(b.points_m.iter_mut().flatten()).for_each(|x| lengths(x));
         let own = [&mut b.height_m, &mut b.thickness_m, &mut b.slip_length_m, &mut b.opening_m];
@@ -127,6 +139,7 @@ pub fn moved(case: &Case, by: [f64; 2], with_the_grid: bool) -> Case {
         body.y_m.iter_mut().for_each(|y| along(1, y));
         places(body).for_each(both);
     }
+    case.inflows.iter_mut().for_each(|inflow| both(&mut inflow.foot_m));
     for b in &mut case.boundaries {
         b.point_m.iter_mut().chain(&mut b.foot_m).chain(b.points_m.iter_mut().flatten()).for_each(both);
     }
@@ -190,6 +203,10 @@ pub fn mirrored(case: &Case) -> Case {
         body.spin_rad_per_s.iter_mut().for_each(|w| *w *= -1.0);
         body.velocity_gradient_per_s.iter_mut().for_each(|[[_, xy], [yx, _]]| (*xy, *yx) = (-*xy, -*yx));
     }
+    for inflow in &mut case.inflows {
+        inflow.foot_m[0] *= -1.0;
+        inflow.towards = if inflow.towards == Towards::Right { Towards::Left } else { Towards::Right };
+    }
     for b in &mut case.boundaries {
         let points = b.points_m.iter_mut().flatten();
         b.point_m.iter_mut().chain(&mut b.foot_m).chain(points).for_each(|x| x[0] *= -1.0);
@@ -206,7 +223,7 @@ pub fn mirrored(case: &Case) -> Case {
     case
 }
 
-/// Turned about the origin, counter-clockwise, together with gravity. The domain becomes the square that holds it at any angle; windows
+/// Turned about the origin, counter-clockwise, together with gravity; of a case without inflows, whose beds lie along x. The domain becomes the square that holds it at any angle; windows
 /// and stations, which belong to the axes, are left out.
 pub fn turned(case: &Case, angle_deg: f64) -> Case {
     let mut case = case.clone();
@@ -272,6 +289,10 @@ pub fn renamed(case: &Case) -> Case {
     for body in &mut case.bodies {
         other(&mut body.name);
         other(&mut body.material);
+    }
+    for inflow in &mut case.inflows {
+        other(&mut inflow.name);
+        other(&mut inflow.material);
     }
     for Boundary { name, bodies, .. } in &mut case.boundaries {
         other(name);

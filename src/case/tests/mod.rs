@@ -14,6 +14,7 @@ mod fixes;
 mod gauges;
 mod shapes;
 mod materials;
+mod inflows;
 
 fn line_of(text: &str, marker: &str) -> usize {
     let position = text.find(marker).unwrap_or_else(|| panic!("no {marker:?} in the text"));

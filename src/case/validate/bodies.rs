@@ -16,9 +16,15 @@ pub(super) const MASS_TOLERANCE: f64 = 1.0e-3;
 impl Checker<'_> {
     pub(super) fn bodies(&mut self) {
         let list = KeyPath::top("bodies");
-        if self.case.bodies.is_empty() {
+        if self.case.bodies.is_empty() && self.case.inflows.is_empty() {
             let what = "the case has no body".to_owned();
-            self.problem(&list, what, &"", "at least one of [[bodies]]", "add [[bodies]] with a material to simulate");
+            self.problem(
+                &list,
+                what,
+                &"",
+                "at least one of [[bodies]] or [[inflows]]",
+                "add [[bodies]] with a material to simulate",
+            );
         }
         let names: Vec<&str> = self.case.bodies.iter().map(|body| body.name.as_str()).collect();
         self.names(&list, &names);

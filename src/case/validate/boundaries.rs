@@ -195,13 +195,14 @@ impl Checker<'_> {
             let fix = "name a body, or leave the line out for all bodies";
             self.not_allowed(path, &names, "at least one name", fix);
         }
-        let most = self.case.bodies.len() + 20;
+        let most = self.case.bodies.len() + self.case.inflows.len() + 20;
         if names.len() > most {
             let what = format!("{path} has {} names", names.len());
             return self.problem(path, what, &"", "names of bodies, each once", "leave the line out for all bodies");
         }
         for (k, name) in names.iter().enumerate() {
-            let bodies = self.case.bodies.iter().map(|b| b.name.as_str());
+            let of_inflows = self.case.inflows.iter().map(|i| i.name.as_str());
+            let bodies = self.case.bodies.iter().map(|b| b.name.as_str()).chain(of_inflows);
             if !bodies.clone().any(|other| other == name) {
                 let fix = did_you_mean(name, bodies);
                 self.not_allowed(&path.index(k), name, "the name of one of [[bodies]]", &fix);

@@ -7,7 +7,7 @@ use crate::case::schema::{Body, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS};
 
 impl Checker<'_> {
     pub(super) fn cost(&mut self) {
-        let parts = ["grid", "domain", "bodies", "materials"].map(KeyPath::top);
+        let parts = ["grid", "domain", "bodies", "materials", "inflows"].map(KeyPath::top);
         if self.is_clean(&parts[0]) && self.case.grid.particles_per_cell > 0 {
             self.particles();
             // An interval of the domain that is wrong is reported by itself, and so is what follows from it.
@@ -53,12 +53,13 @@ impl Checker<'_> {
         let (case, domain) = (self.case, &self.case.domain);
         let bodies = || case.bodies.iter().filter(|body| has_geometry(body));
         let spacing = case.grid.spacing_m;
-        let particles: f64 = bodies().map(|body| body.particle_count(&case.grid)).sum();
+        let entering = if self.is_clean(&KeyPath::top("inflows")) { case.entering_count_estimate() } else { 0.0 };
+        let particles = bodies().map(|body| body.particle_count(&case.grid)).sum::<f64>() + entering;
         let domain_area = (domain.x_m[1] - domain.x_m[0]) * (domain.y_m[1] - domain.y_m[0]);
         let cells = domain_area / spacing.powi(2);
 
-        let weighted_area: f64 =
-            bodies().map(|body| body.area_m2() * f64::from(body.particles_per_cell(&case.grid))).sum();
+        let at_start = bodies().map(|body| body.area_m2() * f64::from(body.particles_per_cell(&case.grid)));
+        let weighted_area = at_start.sum::<f64>() + entering * spacing.powi(2);
         let for_particles = rounded_up((weighted_area / MAX_PARTICLES).sqrt());
         let for_cells = rounded_up((domain_area / MAX_GRID_CELLS).sqrt());
         let both = for_particles.max(for_cells);

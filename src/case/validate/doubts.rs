@@ -130,7 +130,11 @@ fn pic(case: &Case) -> Option<Problem> {
         2.0 * viscosity * (std::f64::consts::PI / depth).powi(2) * (depth / g).sqrt()
     };
     let flows = |b: &&Body| case.materials.get(&b.material).is_some_and(|m| m.law.flows());
-    let largest = case.bodies.iter().filter(|b| has_geometry(b)).filter(flows).map(loss).fold(0.0, f64::max);
+    // Flows that enter are long.
+    let entering = case.inflows.iter().map(|i| (i.deepest_m(), i.behind(&case.grid)));
+    let entering = entering.map(|(deep, behind)| loss(&Body { x_m: Some([0.0, 10.0 * deep]), ..behind }));
+    let bodies = case.bodies.iter().filter(|b| has_geometry(b)).filter(flows).map(loss);
+    let largest = bodies.chain(entering).fold(0.0, f64::max);
     (largest > HALF && g > 0.0).then(|| {
         let path = KeyPath::top("numerics").key(key);
         Problem {

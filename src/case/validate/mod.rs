@@ -6,6 +6,7 @@ mod contacts;
 mod cost;
 mod doubts;
 mod gauges;
+mod inflows;
 mod kinematics;
 mod materials;
 mod sections;
@@ -67,6 +68,7 @@ pub fn validate(case: &Case) -> Findings {
     checker.walls();
     checker.terrain();
     checker.bodies();
+    checker.inflows();
     checker.contacts();
     checker.cost();
     // What is refused needs no warning on top.

@@ -53,6 +53,7 @@ impl Checker<'_> {
         let lists = [
             ("materials", case.materials.len()),
             ("bodies", case.bodies.len()),
+            ("inflows", case.inflows.len()),
             ("boundaries", case.boundaries.len()),
             ("contacts", case.contacts.len()),
             ("windows", case.gauges.windows.len()),
