@@ -48,9 +48,8 @@ pub use contact::{BodyContact, GapKind, NormalKind};
 pub use drawing::{Drawing, Rectangle, Ring};
 pub use gauges::{Gauges, Window};
 pub use grid::{Domain, Filling, Grid};
-pub use material::{Frictional, Law, Material};
 pub use inflow::{Inflow, Profile, Towards};
-pub use material::{DruckerPrager, Law, Material};
+pub use material::{Frictional, Law, Material};
 pub use path::{KeyPath, PathSegment};
 pub use schema::{
     Body, Case, Gravity, Integration, Kinematics, Lattice, MAX_GRID_CELLS, MAX_PARTICLES, MAX_TIME_STEPS, Numerics,

@@ -2,8 +2,10 @@
 
 use super::{Checker, text, text_down, text_up};
 use crate::case::boundary::{Boundary, BoundaryKind};
-use crate::case::geometry::penetration_of_rectangle;
+use crate::case::drawing::Drawing;
+use crate::case::geometry::penetration;
 use crate::case::inflow::{Inflow, Profile, Towards};
+use crate::case::material::Law;
 use crate::case::path::KeyPath;
 use crate::case::schema::Kinematics;
 use crate::case::suggest::did_you_mean;
@@ -71,7 +73,7 @@ impl Checker<'_> {
                 let fix = did_you_mean(&inflow.material, self.case.materials.keys().map(String::as_str));
                 self.not_allowed(&path, &inflow.material, "the name of one of [materials.NAME]", &fix);
             }
-            Some(m) if m.drucker_prager().is_none() && self.is_clean(&KeyPath::top("materials")) => {
+            Some(m) if m.law != Law::DruckerPrager && self.is_clean(&KeyPath::top("materials")) => {
                 let allowed = "a material that flows: law = \"drucker_prager\"";
                 let fix = "give it a friction angle, or let a body with a velocity hit the barrier";
                 self.not_allowed(&path, &inflow.material, allowed, fix);
@@ -226,7 +228,7 @@ impl Checker<'_> {
     fn place(&mut self, at: &KeyPath, index: usize, inflow: &Inflow) {
         let path = at.key("foot_m");
         let (h, domain, behind) = (self.case.grid.spacing_m, &self.case.domain, inflow.behind(&self.case.grid));
-        let [low, high] = behind.x_m;
+        let ([low, high], [bottom, top]) = (behind.x_m.unwrap_or_default(), behind.y_m.unwrap_or_default());
         let right = inflow.towards == Towards::Right;
         // A cell beyond the section for what has entered.
         let [low, high] = if right { [low, high + h] } else { [low - h, high] };
@@ -244,12 +246,12 @@ impl Checker<'_> {
             );
             self.problem(&path, what, &inflow.foot_m, &allowed, "move the section, or enlarge the domain");
         }
-        if behind.y_m[0] < domain.y_m[0] - TOLERANCE_M || behind.y_m[1] > domain.y_m[1] + TOLERANCE_M {
+        if bottom < domain.y_m[0] - TOLERANCE_M || top > domain.y_m[1] + TOLERANCE_M {
             let what = format!(
                 "inflow `{}` reaches from y = {} to {} m, out of the domain",
                 inflow.name,
-                text(behind.y_m[0]),
-                text(behind.y_m[1])
+                text(bottom),
+                text(top)
             );
             let allowed = format!("inside domain.y_m = [{}, {}]", text(domain.y_m[0]), text(domain.y_m[1]));
             self.problem(&path, what, &inflow.foot_m, &allowed, "move the section, or enlarge the domain");
@@ -272,10 +274,12 @@ impl Checker<'_> {
         }
         let solid = |b: &&Boundary| b.penetration(&behind, &self.case.grid).is_some_and(|p| p.depth_m > TOLERANCE_M);
         let boundary = self.case.boundaries.iter().find(solid).map(|b| format!("boundary `{}`", b.name));
-        let meets =
-            |corners: [[f64; 2]; 4]| penetration_of_rectangle(&behind.corners_m(), &corners).depth_m > TOLERANCE_M;
-        let body = self.case.bodies.iter().find(|b| meets(b.corners_m())).map(|b| format!("body `{}`", b.name));
-        let others = self.case.inflows[..index].iter().find(|i| meets(i.behind(&self.case.grid).corners_m()));
+        let drawn = behind.drawing();
+        let meets = |other: Option<Drawing>| {
+            drawn.as_ref().zip(other).is_some_and(|(own, other)| penetration(own, &other).depth_m > TOLERANCE_M)
+        };
+        let body = self.case.bodies.iter().find(|b| meets(b.drawing())).map(|b| format!("body `{}`", b.name));
+        let others = self.case.inflows[..index].iter().find(|i| meets(i.behind(&self.case.grid).drawing()));
         let other = others.map(|i| format!("inflow `{}`", i.name));
         if let Some(other) = boundary.or(body).or(other) {
             let what = format!("{other} lies within five cells behind the section of inflow `{}`", inflow.name);
