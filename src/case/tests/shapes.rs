@@ -183,7 +183,8 @@ fn a_body_by_its_foot() {
     let Some(Shape::Wall(w)) = case(&wall).boundaries[1].shape(&case(&wall).grid) else { panic!("a wall") };
     let (mut of_wall, mut of_body) = (w.corners_m().to_vec(), turned);
     let by_place = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]);
-    (of_wall.sort_by(by_place), of_body.sort_by(by_place));
+    of_wall.sort_by(by_place);
+    of_body.sort_by(by_place);
     assert!(near(&of_wall, &of_body), "{of_wall:?} {of_body:?}");
 }
 
