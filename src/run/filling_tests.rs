@@ -84,7 +84,7 @@ fn columns_that_fork_share_their_pieces() {
             assert_eq!(found.len(), count, "{angle}");
             let inside = |p: &Point| {
                 let [x, y] = *p;
-                0.0 < x && x < 5.0 && 0.0 < y && y < 2.0 && (x < 0.5 || y < 0.3 || y > 1.1)
+                0.0 < x && x < 5.0 && 0.0 < y && y < 2.0 && (x < 0.5 || !(0.3..=1.1).contains(&y))
             };
             assert!(found.iter().all(inside), "{angle} {count}: {:?}", found.iter().find(|p| !inside(p)));
             let lower = found.iter().filter(|p| p[0] > 0.5 && p[1] < 0.7).count() as f64;

@@ -57,6 +57,8 @@ const REFUSED: &[Bad] = &[
     ("polygon_m = [[0, 0.1], [1, 0.1], [0.5, 0.1]]", None, &["cross, touch or fold back"]),
     ("polygon_m = [[0, 0.1], [1, 0.1], [0.5, nan]]", None, &["a finite number"]),
     ("polygon_m = [[0, 0.1], [1, 0.1], [0.5, 0.105]]", None, &["thinner than a particle", "0.01 m"]),
+    // A sliver, long enough both ways.
+    ("polygon_m = [[0, 0.5], [1, 1.5], [1, 1.501]]", None, &["thinner than a particle"]),
     ("polygon_m = [[0, 0.1], [5, 0.1], [0.5, 0.5]]", None, &["reaches 2 m out of the domain"]),
     ("centre_m = [0.5, 0.3]\nradius_m = 0", None, &["radius_m = 0", "radius_m > 0"]),
     ("centre_m = [0.5, 0.3]\nradius_m = 0.2\ninner_radius_m = 0.2", None, &["less than radius_m = 0.2"]),
@@ -183,7 +185,8 @@ fn a_body_by_its_foot() {
     let Some(Shape::Wall(w)) = case(&wall).boundaries[1].shape(&case(&wall).grid) else { panic!("a wall") };
     let (mut of_wall, mut of_body) = (w.corners_m().to_vec(), turned);
     let by_place = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]);
-    (of_wall.sort_by(by_place), of_body.sort_by(by_place));
+    of_wall.sort_by(by_place);
+    of_body.sort_by(by_place);
     assert!(near(&of_wall, &of_body), "{of_wall:?} {of_body:?}");
 }
 
