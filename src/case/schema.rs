@@ -105,7 +105,7 @@ pub struct Body {
     /// particles. Example: `[0.0, 0.5]`.
     pub y_m: Option<[f64; 2]>,
     /// Corners of a polygon, in order either way round. Default: none. Allowed: 3 to 1000 pairs `[x, y]`; sides that neither cross nor
-    /// touch; at least a spacing of the particles wide and high. Example: `[[0.0, 0.0], [0.4, 0.0], [0.1, 0.3]]`.
+    /// touch; at least a spacing of the particles wide and high, and no sliver. Example: `[[0.0, 0.0], [0.4, 0.0], [0.1, 0.3]]`.
     pub polygon_m: Option<Vec<[f64; 2]>>,
     /// CSV file that has the corners of the polygon, in columns `x_m` and `y_m` under these names; relative to the case file. Default:
     /// none. Allowed: instead of `polygon_m`; not in studies. Example: `"heap.csv"`.

@@ -57,6 +57,8 @@ const REFUSED: &[Bad] = &[
     ("polygon_m = [[0, 0.1], [1, 0.1], [0.5, 0.1]]", None, &["cross, touch or fold back"]),
     ("polygon_m = [[0, 0.1], [1, 0.1], [0.5, nan]]", None, &["a finite number"]),
     ("polygon_m = [[0, 0.1], [1, 0.1], [0.5, 0.105]]", None, &["thinner than a particle", "0.01 m"]),
+    // A sliver, long enough both ways.
+    ("polygon_m = [[0, 0.5], [1, 1.5], [1, 1.501]]", None, &["thinner than a particle"]),
     ("polygon_m = [[0, 0.1], [5, 0.1], [0.5, 0.5]]", None, &["reaches 2 m out of the domain"]),
     ("centre_m = [0.5, 0.3]\nradius_m = 0", None, &["radius_m = 0", "radius_m > 0"]),
     ("centre_m = [0.5, 0.3]\nradius_m = 0.2\ninner_radius_m = 0.2", None, &["less than radius_m = 0.2"]),

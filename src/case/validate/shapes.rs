@@ -15,6 +15,9 @@ const WAYS: [(&str, &[(&str, bool)]); 4] = [
     ("foot_m", &[("height_m", true), ("thickness_m", true), ("inclination_deg", false), ("material_side", false)]),
 ];
 
+/// How much wider a polygon may be somewhere than twice its area over its outline.
+const SLENDER: f64 = 4.0;
+
 /// Whether a body has a key of its shape.
 fn has(body: &Body, key: &str) -> bool {
     match key {
@@ -131,9 +134,12 @@ impl Checker<'_> {
         let Some(drawing) = body.drawing() else { return };
         let narrow = match &drawing {
             Drawing::Rectangle(_) => return,
-            Drawing::Polygon(_) => {
+            Drawing::Polygon(corners) => {
                 let least = body.size_m().into_iter().fold(f64::INFINITY, f64::min);
-                (least < spacing).then_some(least)
+                // A long strip is as wide as twice its area over its outline; an equilateral triangle has a third of its height.
+                let around: f64 = polygon::sides(corners).map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).sum();
+                let width = least.min(SLENDER * 2.0 * polygon::area(corners) / around);
+                (width < spacing).then_some(width)
             }
             Drawing::Ring(r) => {
                 let width = r.radius_m - r.inner_radius_m;
