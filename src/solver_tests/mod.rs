@@ -5,6 +5,7 @@ mod contact;
 mod edges;
 mod failures;
 mod forces;
+mod laws;
 mod motion;
 mod slip;
 mod surface;
