@@ -137,9 +137,10 @@ fn depth_at(way: &Way, depths: &[f64], travel: f64) -> f64 {
 /// Across the bed a layer carries its weight: sigma_yy = rho g_y z at the depth z below its surface, with g_y negative. Its shear is what
 /// the bed takes: of a plug, the friction of the bed against its motion, so that every height of it is slowed or driven alike; of a flow
 /// that sticks to the bed, rho g_x z as in steady flow. Along the bed sigma_xx = K sigma_yy with K = nu / (1 - nu), that of a layer that has
-/// never been strained along the bed, or the nearest K for which the stress lies in the cone. Across the plane the stress is the elastic
-/// one, nu (sigma_xx + sigma_yy). Where no K does, it is half of the sum, to which flow at constant volume brings it in plane strain; and where that
-/// does not either, on slopes steeper than the angle of friction, the shear is as large as the cone lets it be.
+/// never been strained along the bed, and across the plane the stress is the elastic one, nu (sigma_xx + sigma_yy). Where this lies outside of
+/// the cone, the layer flows: across the plane it has half of the sum, to which flow at constant volume brings it in plane strain, and the
+/// nearest K that lies in the cone, which is that of Rankine's active state on a slope. On slopes steeper than the angle of friction no K does, and
+/// the shear is as large as the cone lets it be.
 fn layer(case: &Case, inflow: &case::Inflow) -> Option<Stress> {
     let material = case.materials.get(&inflow.material)?;
     let [gx, gy] = scene::gravity(case, case.gravity.inclination_deg);
@@ -208,10 +209,10 @@ fn in_cone(law: Option<&DruckerPrager>, nu: f64, shear: f64) -> Layer {
     let at_rest = Layer { k: nu / (1.0 - nu), across: nu, share: 1.0 };
     let Some(law) = law else { return at_rest };
     let fits = |l: Layer| l.deepest(law, shear).beyond(law, shear) <= 0.0;
-    let mut chosen = at_rest;
-    if !fits(chosen) {
-        chosen.across = 0.5;
+    if at_rest.beyond(law, shear) <= 0.0 {
+        return at_rest;
     }
+    let mut chosen = Layer { across: 0.5, ..at_rest };
     if !fits(chosen) {
         let [mut low, mut high] = [0.0, 1.0];
         for _ in 0..HALVINGS {

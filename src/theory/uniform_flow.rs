@@ -19,6 +19,13 @@ pub fn mass(density: f64, depth: f64, width: f64, velocity: f64, time: f64) -> f
     density * depth * width * velocity * time
 }
 
+/// Pressure along the bed over that across it in a cohesionless layer about to spread, with the angle of friction `phi` (rad) and the shear
+/// stress `shear` times the pressure across the bed: Rankine's active state on a slope, as Savage and Hutter (1989) use it.
+pub fn active_ratio(phi: f64, shear: f64) -> f64 {
+    let cosine = libm::cos(phi) * libm::cos(phi);
+    2.0 / cosine * (1.0 - (1.0 - cosine * (1.0 + shear * shear)).sqrt()) - 1.0
+}
+
 /// Velocity over its mean at a share of the depth from the bed up, of Bagnold's profile.
 pub fn bagnold(share: f64) -> f64 {
     5.0 / 3.0 * (1.0 - libm::pow(1.0 - share, 1.5))
@@ -40,6 +47,15 @@ mod tests {
         assert!((mean(&bagnold) - 1.0).abs() < 1e-6);
         assert!((mean(&|s| bagnold(s) * bagnold(s)) - BAGNOLD_MOMENTUM).abs() < 1e-6);
         assert!((mean(&|s| 4.0 * s * s) - LINEAR_MOMENTUM).abs() < 1e-6);
+    }
+
+    /// On a level bed Rankine's (1 - sin) / (1 + sin); at the angle of friction 1 + 2 tan^2, where both states meet.
+    #[test]
+    fn the_active_state_is_that_of_rankine() {
+        let phi = 35f64.to_radians();
+        let (sine, tangent) = (libm::sin(phi), libm::tan(phi));
+        assert!((active_ratio(phi, 0.0) - (1.0 - sine) / (1.0 + sine)).abs() < 1e-12);
+        assert!((active_ratio(phi, tangent * (1.0 - 1e-15)) - (1.0 + 2.0 * tangent * tangent)).abs() < 1e-6);
     }
 
     /// A metre of sand of 1500 kg/m3 on 30 degrees: 1500 x 9.81 x 0.8660254 and x 0.5 Pa.
