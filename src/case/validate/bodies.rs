@@ -17,7 +17,7 @@ impl Checker<'_> {
     pub(super) fn bodies(&mut self) {
         let list = KeyPath::top("bodies");
         if self.case.bodies.is_empty() && self.case.inflows.is_empty() {
-            let what = "the case has no body".to_owned();
+            let what = "bodies is missing, and nothing flows in".to_owned();
             self.problem(
                 &list,
                 what,
