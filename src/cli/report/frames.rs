@@ -7,6 +7,7 @@ use super::base64;
 use crate::folder::Run;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::Path;
 
 /// Bytes of all frames.
@@ -83,16 +84,17 @@ pub fn pack(run: &Run) -> Result<Value, String> {
     }))
 }
 
-/// The bodies of the case that are structures: what has no friction angle.
+/// The bodies of the case that are structures: those whose law is elastic.
 fn structures(run: &Run) -> Vec<usize> {
     let case = run.summary.get("case");
     let bodies = case.and_then(|case| case.get("bodies")).and_then(toml::Value::as_array);
-    let flows = |body: &toml::Value| {
+    let elastic = |body: &toml::Value| {
         let material = body.get("material")?.as_str()?;
-        Some(case?.get("materials")?.get(material)?.get("friction_angle_deg").is_some())
+        let law = case?.get("materials")?.get(material)?.get("law")?.as_str()?;
+        Some(["linear_elastic", "neo_hookean"].contains(&law))
     };
     let bodies = bodies.into_iter().flatten().enumerate();
-    bodies.filter(|(_, body)| flows(body) == Some(false)).map(|(k, _)| k).collect()
+    bodies.filter(|(_, body)| elastic(body) == Some(true)).map(|(k, _)| k).collect()
 }
 
 /// The value below which nearly all are; above zero.
@@ -124,8 +126,12 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
 type Packed = (Vec<Frame>, String, f64, String);
 
 fn from_vtk(run: &Run, list: &[(f64, String)], solid: &[usize]) -> Result<Packed, String> {
-    let first = Vtp::read(&run.path.join(&list[0].1))?;
-    let points = first.numbers("id")?.len();
+    // Points may enter and leave.
+    let counts = list.iter().map(|(_, name)| count(&run.path.join(name))).collect::<Result<Vec<_>, _>>()?;
+    let points = counts.into_iter().max().unwrap_or(0);
+    if points == 0 {
+        return Err("no frame has a point".into());
+    }
     let [every, kept] = thinning(points, list.len());
     let mut read = Vec::new();
     for (time, name) in (0..kept).map(|k| &list[k * (list.len() - 1) / (kept - 1).max(1)]) {
@@ -159,6 +165,16 @@ fn from_vtk(run: &Run, list: &[(f64, String)], solid: &[usize]) -> Result<Packed
         said.push(format!("{kept} of {} frames", list.len()));
     }
     Ok((read, "flow.pvd and vtk/".into(), size(run)? * (every as f64).sqrt(), said.join(", ")))
+}
+
+/// The number of points of a frame, from its head.
+fn count(path: &Path) -> Result<usize, String> {
+    let mut head = [0; 2048];
+    let read = std::fs::File::open(path).and_then(|mut file| file.read(&mut head));
+    let read = read.map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
+    let text = String::from_utf8_lossy(&head[..read]);
+    let count = attribute(&text, "NumberOfPoints").and_then(|text| text.parse().ok());
+    count.ok_or(format!("{} is no frame of a run", path.display()))
 }
 
 /// Of how many points one is kept, and how many frames, so that all fit: points are left out down to [`POINTS`], then frames.
@@ -277,6 +293,7 @@ mod tests {
         assert_eq!(file.numbers("speed_m_per_s"), Ok(vec![0.5, 1.5, 2.5]));
         assert_eq!(file.numbers("id"), Ok(vec![0.0, 7.0, 14.0]));
         assert!(file.numbers("body").is_err());
+        assert_eq!(count(&path), Ok(3));
     }
 
     #[test]

@@ -159,7 +159,7 @@ function startFlow() {
   const [lo, hi] = [about.low, about.high];
   const [w, h] = [(hi[0] - lo[0]) / 65535, (hi[1] - lo[1]) / 65535];
   // What is in view: walls, and all points but the few that fly far.
-  const corners = data.outlines.filter((o) => o.kind !== "plane").flatMap((o) => o.corners).map(([x, y]) => turned(x, y));
+  const corners = data.outlines.filter((o) => o.kind === "wall").flatMap((o) => o.corners).map(([x, y]) => turned(x, y));
   const bounds = [0, 1].map((side) => {
     const all = new Float32Array(frames.reduce((sum, f) => sum + f.n, 0));
     let at = 0;
