@@ -25,7 +25,7 @@ use nalgebra::Vector2;
 pub const RUNG: Rung = Rung {
     name: of_module(module_path!()),
     title: "A layer of mu(I) on a rough incline comes to Bagnold's profile",
-    goal: "Velocity at the surface, the shape of the profile, and better on a finer grid",
+    goal: "Velocity at the surface and shape of the profile, on two grids",
     source: "GDR MiDi 2004; Jop, Forterre and Pouliquen 2006",
     sketch: r"
    o o o o o o o o   -->   velocity ~ H^1.5 - (H - y)^1.5

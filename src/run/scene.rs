@@ -331,9 +331,9 @@ mod tests {
         near(law.cohesion, 500.0 * cos);
         assert!(law.void_tracking && law.tension_cutoff == 0.0);
         let softens = "critical_friction_angle_deg = 30\nsoftening_strain = 0.2";
-        let soft = law_of(&format!("{mohr}\n{softens}"));
-        assert!(matches!(soft, AnyLaw::SofteningMohrCoulomb(_)), "{soft:?}");
-        let AnyLaw::SofteningMohrCoulomb(law) = soft else { return };
+        let softening = law_of(&format!("{mohr}\n{softens}"));
+        assert!(matches!(softening, AnyLaw::SofteningMohrCoulomb(_)));
+        let AnyLaw::SofteningMohrCoulomb(law) = softening else { panic!("another law") };
         near(law.peak.friction, sin);
         near(law.critical, 0.5);
         near(law.over, 0.2);
