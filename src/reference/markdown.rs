@@ -142,10 +142,11 @@ fn kind(schema: &Schema, node: &Value) -> String {
         Some("object") => "table",
         Some("array") => {
             let item = kind(schema, schema.followed(&node["items"]));
+            let items = if item.starts_with("list") { item.replacen("list", "lists", 1) } else { format!("{item}s") };
             return match node.get("minItems") {
-                Some(count) => format!("list of {count} {item}s"),
+                Some(count) => format!("list of {count} {items}"),
                 None if item == "any value" => "list".to_owned(),
-                None => format!("list of {item}s"),
+                None => format!("list of {items}"),
             };
         }
         _ => "any value",
