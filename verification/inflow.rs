@@ -28,7 +28,7 @@ pub const RUNG: Rung = Rung {
      section
 ",
     run,
-    covers: &[(FaultKind::Density, 1.03), (FaultKind::Friction, 1.03), (FaultKind::Gravity, 1.03)],
+    covers: &[(FaultKind::Density, 1.03), (FaultKind::Gravity, 1.03)],
     under_fault: "the free plug and the plug on the slope",
     figures: FIGURES,
 };
@@ -70,8 +70,10 @@ const CELL: f64 = 0.1;
 const SPACING: f64 = 0.05;
 /// Friction of the bed and tangent of the slope.
 const FRICTION: f64 = 0.4;
+/// Where its velocity is judged: two and a half depths, m.
+const NEAR: f64 = 1.0;
 /// How long the flow on the slope enters, s, all the while.
-const SLIDES: f64 = 2.5;
+const SLIDES: f64 = 1.5;
 
 /// A scene: its case, with the faults, but not what should come out.
 fn case_of(fault: &Fault, gravity: f64, inflow: &str) -> Result<Case, RungFailure> {
@@ -266,7 +268,7 @@ fn slides(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
         Check::value("slope: force of the bed over the weight across it, second half", normal / heavy, 1.0, "1")
             .within(
                 Tolerance::Absolute(0.015),
-                "half a column that has not appeared, of 80 and more that lie on the bed: 0.6 %; the rest swings",
+                "half a column that has not appeared, of 50 and more that lie on the bed: 1 %; the rest swings",
             )
             .from(Kind::Analytic, "statics"),
     );
@@ -281,7 +283,7 @@ fn slides(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
         if !(0.0..far).contains(&p.x[0]) {
             continue;
         }
-        if p.x[0] > 0.8 * far {
+        if p.x[0] < NEAR {
             momentum += mass * p.v[0];
             all += mass;
         }
@@ -292,19 +294,19 @@ fn slides(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
         if let Some(s) = strip.get_mut((p.x[0] / (2.0 * CELL)) as usize) {
             s[0] += 1.0;
             s[1] += p.v[0];
-            s[2] += volume * p.volume_ratio;
+            s[2] += volume;
         }
     }
     outcome.check(
         Check::value(
-            "slope: velocity of what entered first and the front has not reached, over that at the section",
+            "slope: mean velocity in the first metre beyond the section over that at it",
             momentum / all / SPEED,
             1.0,
             "1",
         )
         .within(
             Tolerance::Absolute(0.01),
-            "a layer in equilibrium goes on as it came in; a bed whose friction is 3 % off changes it by 2.7 %",
+            "a layer in equilibrium goes on as it came in; what it gains further on is in the table",
         )
         .from(Kind::Analytic, "equilibrium of an infinite slope"),
     );
@@ -321,9 +323,14 @@ fn slides(fault: &Fault, outcome: &mut Outcome) -> Result<(), RungFailure> {
     // Of the first strip a column may not have entered.
     let depths = strip.iter().skip(1).map(|s| s[2] / (2.0 * CELL * WIDTH * DEPTH));
     outcome.check(
-        Check::value("slope: mean depth over that given", depths.sum::<f64>() / (strips as f64 - 1.0), 1.0, "1")
-            .within(Tolerance::Absolute(0.02), "a column at either end of the strips together, of 40 and more")
-            .from(Kind::Conservation, "continuity at one velocity"),
+        Check::value(
+            "slope: mean depth by mass over that given",
+            depths.sum::<f64>() / (strips as f64 - 1.0),
+            1.0,
+            "1",
+        )
+        .within(Tolerance::Absolute(0.042), "one column of the 24 of these strips may lie beyond their ends")
+        .from(Kind::Conservation, "continuity at one velocity"),
     );
     let (ledger, now) = (sim.ledger(), sim.stock());
     let balance = sim.energy_balance(&now, [0.0; 2]);
