@@ -37,8 +37,8 @@ pub mod scene;
 pub mod self_weight;
 pub mod sliding_block;
 pub mod slip;
-pub mod terrain;
 pub mod softening_layer;
+pub mod terrain;
 pub mod wall_place;
 pub mod wall_pressure;
 

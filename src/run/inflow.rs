@@ -162,6 +162,8 @@ fn layer(case: &Case, inflow: &case::Inflow) -> Option<Stress> {
     let nu = material.poisson;
     let law = match scene::law(material) {
         AnyLaw::DruckerPrager(law) => Some(law),
+        // It enters before it has sheared.
+        AnyLaw::SofteningDruckerPrager(law) => Some(law.peak),
         _ => None,
     };
     let Layer { k, across, share } = in_cone(law.as_ref(), nu, wanted);

@@ -11,8 +11,8 @@ use checkdam::gauge::StructureSample;
 use checkdam::plot::PlotError;
 use checkdam::run::{Records, Summary, run_in_memory};
 use checkdam::study::quantities::{QUANTITIES, measure};
-use checkdam_verification::report::number;
 use checkdam_verification::Outcome;
+use checkdam_verification::report::number;
 use std::path::Path;
 
 /// The runs.

@@ -12,9 +12,9 @@ mod contacts;
 mod doubts;
 mod fixes;
 mod gauges;
-mod shapes;
-mod materials;
 mod inflows;
+mod materials;
+mod shapes;
 
 fn line_of(text: &str, marker: &str) -> usize {
     let position = text.find(marker).unwrap_or_else(|| panic!("no {marker:?} in the text"));
