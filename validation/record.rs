@@ -166,6 +166,8 @@ pub fn processors() -> NonZero<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use checkdam::study::{Folder, attempt};
+    use checkdam_verification::Fault;
 
     const CASE: &str = r#"
         title = "drop"
@@ -219,6 +221,32 @@ mod tests {
         let mut changed = text.clone();
         changed.replace_range(place..=place, if digit == '7' { "3" } else { "7" });
         assert_eq!(wrong(&record(&changed)), [changed.lines().nth(2).expect("two runs")]);
+    }
+
+    /// A record that is made anew goes on with runs that other processes have made in its folder.
+    #[test]
+    fn a_record_is_made_of_runs_that_others_made() {
+        let folder = std::env::temp_dir().join(format!("checkdam-record-{}", std::process::id()));
+        let record = record("");
+        let (study, planned) = record.plan().expect("a study");
+        let at = folder.join("drop");
+        {
+            let shared = Folder::shared(&at).expect("a folder");
+            attempt(&planned[1], Some(&shared), &mut |_| true).expect("a result");
+        }
+        let mut made = Vec::new();
+        let mut progress = |text: &str| {
+            made.extend((!text.is_empty()).then(|| text.to_string()));
+            true
+        };
+        let mut context = Context { fault: Fault::NONE, folder: &folder, studies: true, progress: &mut progress };
+        let table = record.table(&mut context).expect("a table");
+        assert_eq!(table.cells("key").expect("keys"), [planned[0].key.as_str(), planned[1].key.as_str()]);
+        assert!(made.len() == 1 && made[0].starts_with("2 of 2 runs"), "{made:?}");
+        let mut alone = Runs::new(&study.columns());
+        planned.iter().for_each(|run| alone.insert(run, one(run, &mut |_| true)));
+        assert_eq!(std::fs::read_to_string(at.join("runs.csv")).expect("a table"), alone.csv(&planned));
+        std::fs::remove_dir_all(&folder).expect("a folder");
     }
 
     #[test]

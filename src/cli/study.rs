@@ -45,7 +45,11 @@ pub fn study(path: &Path, out: Option<PathBuf>, task: &Task) -> ExitCode {
         Ok(code) => code,
         Err(error) => {
             tell!("{}", in_words(&error));
-            if matches!(error, StudyError::Unreadable { .. }) && !path.exists() {
+            if of_the_project(path).is_some() {
+                tell!(
+                    "  the studies of a validation are made by its name alone; for this give one of their files, below validation/"
+                );
+            } else if matches!(error, StudyError::Unreadable { .. }) && !path.exists() {
                 let known: Vec<_> = VALIDATIONS.iter().filter(|v| !v.study.is_empty()).map(|v| v.name).collect();
                 tell!("  studies of the project: {}", known.join(", ").replace('_', "-"));
             }
