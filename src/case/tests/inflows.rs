@@ -89,6 +89,14 @@ fn inflows_that_cannot_be() {
 }
 
 #[test]
+fn a_case_of_nothing_is_refused() {
+    let at = INFLOW.find("[[inflows]]").expect("an inflow");
+    let end = INFLOW.find("[[boundaries]]").expect("a boundary");
+    let report = report_of(&format!("{}{}", &INFLOW[..at], &INFLOW[end..]));
+    assert!(report.contains("the case has no body") && report.contains("[[bodies]] or [[inflows]]"), "{report}");
+}
+
+#[test]
 fn hydrographs_of_one_depth_may_be_sheared_and_have_a_wedge() {
     let text = with(GIVEN, &format!("{GRAPH}\nprofile = \"bagnold\"\nfront_angle_deg = 60"));
     let case = parse(&text, "inflow.toml").unwrap_or_else(|error| panic!("{error}")).case;
