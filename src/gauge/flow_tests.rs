@@ -1,12 +1,12 @@
 use super::super::two_bodies::{BODIES, close, point, scene_of, simulation};
-use super::super::{Front, FrontGauge, StationGauge, StationSample, WindowGauge, WindowSample, velocity_field};
+use super::super::{FrontGauge, StationGauge, StationSample, WindowGauge, WindowSample, velocity_field};
 use super::*;
 use crate::scaffold::THICKNESS;
 
 #[test]
 fn no_material_has_no_front() {
     let sim = simulation(0.02, [vec![], vec![]], vec![]);
-    assert_eq!(FrontGauge::new(1.0, 0.05).sample(&sim, &[]), Front::default());
+    assert!(FrontGauge::new(1.0, 0.05).sample(&sim, &[]).x.is_nan());
     assert_eq!(StationGauge::new(0.0).sample(&sim, &[]), StationSample::default());
     assert!(velocity_field(&sim, &[]).is_empty());
 }

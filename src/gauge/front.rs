@@ -21,6 +21,11 @@ pub struct Front {
     pub depth: f64,
 }
 
+impl Front {
+    /// Where nothing flows: nowhere, and no number says where.
+    pub const NONE: Self = Self { x: f64::NAN, edge: f64::NAN, velocity: f64::NAN, depth: 0.0 };
+}
+
 /// How far behind the last front the next one is first looked for, strips: farther than a front falls back between two samples.
 const BACK: f64 = 0.125;
 
@@ -45,8 +50,7 @@ impl FrontGauge {
         Self { ahead, length, begin: f64::NEG_INFINITY, share: (0.0, 0, 0), places: Vec::new() }
     }
 
-    /// The front now of what flows (see `flow::flowing`): of all bodies but `barriers`, by index. At the origin and at
-    /// rest where nothing flows.
+    /// The front now of what flows (see `flow::flowing`): of all bodies but `barriers`, by index; [`Front::NONE`] where nothing flows.
     ///
     /// Where all points have one mass, the front is found by how many of them are ahead of it, among those that are ahead of where it was.
     /// Else all points are put in order.
@@ -58,7 +62,7 @@ impl FrontGauge {
             one_mass &= mass == *of_point.get_or_insert(mass);
             count += e.points;
         });
-        let Some(of_point) = of_point else { return Front::default() };
+        let Some(of_point) = of_point else { return Front::NONE };
         if one_mass && (self.share.0, self.share.1) != (of_point, count) {
             self.share = (of_point, count, points_ahead(std::iter::repeat_n(of_point, count)));
         }

@@ -28,6 +28,17 @@ fn front_is_where_one_percent_of_the_mass_has_passed() {
 }
 
 #[test]
+fn where_nothing_flows_the_front_has_passed_no_place() {
+    let sim = simulation(0.02, [vec![point(2.0, 0.0, [1.0, 0.0], 1.0)], vec![]], vec![]);
+    for way in [1.0, -1.0] {
+        let front = FrontGauge::new(way, LENGTH).sample(&sim, &[0]);
+        let passed = |x: &f64| way * front.x >= way * x || way * front.edge >= way * x;
+        assert!(![-9.0, 0.0, 9.0].iter().any(passed), "{front:?}");
+        assert!(front.velocity.is_nan() && front.depth == 0.0, "{front:?}");
+    }
+}
+
+#[test]
 fn the_front_of_a_thousand_points_is_the_tenth() {
     let points = (0..1000).map(|k| point(1e-3 * f64::from(k * 7 % 1000), 0.0, [1.0, 0.0], 1.0)).collect();
     let front = FrontGauge::new(1.0, LENGTH).sample(&simulation(0.02, [points, vec![]], vec![]), &[]);

@@ -176,7 +176,12 @@ fn outside_domain(experiment: &Experiment) -> f64 {
     let (sim, domain) = (experiment.simulation(), &experiment.case().domain);
     let is_inside =
         |p: &Particle| [domain.x_m, domain.y_m].iter().zip(p.x).all(|([low, high], x)| *low <= x && x <= *high);
-    sim.particles().filter(|(_, p)| !is_inside(p)).map(|(body, _)| sim.bodies()[body].point_mass).sum()
+    // Others are taken away when they are sorted next.
+    let stays = |body: usize| sim.bodies()[body].mesh.is_some();
+    sim.particles()
+        .filter(|(body, p)| stays(*body) && !is_inside(p))
+        .map(|(body, _)| sim.bodies()[body].point_mass)
+        .sum()
 }
 
 /// The volume that the points say they have, over that of the cells they lie in, inside what flows: in cells all of whose neighbours
