@@ -93,7 +93,7 @@ fn a_case_of_nothing_is_refused() {
     let at = INFLOW.find("[[inflows]]").expect("an inflow");
     let end = INFLOW.find("[[boundaries]]").expect("a boundary");
     let report = report_of(&format!("{}{}", &INFLOW[..at], &INFLOW[end..]));
-    assert!(report.contains("the case has no body") && report.contains("[[bodies]] or [[inflows]]"), "{report}");
+    assert!(report.contains("bodies is missing") && report.contains("[[bodies]] or [[inflows]]"), "{report}");
 }
 
 #[test]
