@@ -106,6 +106,13 @@ fn layers(set: &Setting, b: &BoundaryOf, points: &[Point]) -> [f64; 3] {
 }
 
 fn front(set: &Setting, files: &Files, row: usize, points: &[Point], judge: &mut Judge) {
+    if points.is_empty() {
+        // The cells are empty.
+        let names = ["front_x_m", "front_edge_x_m", "front_velocity_m_per_s"];
+        let told = names.iter().filter(|name| !pick(&files.column("history.csv", name), row).is_nan()).count();
+        judge.at_most("history.csv: numbers of a front where nothing flows", told as f64, 0.0, "there is no front");
+        return;
+    }
     let way = set.way();
     let length = at(&set.case, "gauges.front_length_m").unwrap_or(0.158 * set.area().sqrt());
     let mut ahead: Vec<&Point> = points.iter().collect();
