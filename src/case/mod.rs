@@ -165,6 +165,14 @@ pub fn parse(text: &str, name: &str) -> Result<LoadedCase, CaseError> {
     parse_in(text, name, None)
 }
 
+/// Checks the text of a case file that lies in a folder, in which the files that it names are looked for.
+///
+/// # Errors
+/// As [`load`].
+pub fn parse_beside(text: &str, name: &str, folder: &Path) -> Result<LoadedCase, CaseError> {
+    parse_in(text, name, Some(folder))
+}
+
 /// The same of a file in a folder, in which the files that it names lie.
 fn parse_in(text: &str, name: &str, folder: Option<&Path>) -> Result<LoadedCase, CaseError> {
     let mut filled = None;

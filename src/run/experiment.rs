@@ -75,7 +75,7 @@ impl Experiment {
     }
 
     /// Indices of the bodies that are barriers.
-    pub(super) fn structures(&self) -> &[usize] {
+    pub fn structures(&self) -> &[usize] {
         &self.gauges.structures
     }
 
@@ -94,9 +94,12 @@ impl Experiment {
         &self.gauges.windows
     }
 
-    /// One step, as at the start of a run.
-    #[cfg(test)]
-    pub(crate) fn step_for_tests(&mut self) -> Result<(), RunError> {
+    /// One step of the run stage, read by the gauges: for those who drive it themselves, after [`prepare`](Self::prepare) and
+    /// [`release`](Self::release). Nothing is recorded.
+    ///
+    /// # Errors
+    /// The step fails.
+    pub fn step(&mut self) -> Result<(), RunError> {
         self.simulation.step()?;
         self.read_step();
         Ok(())
@@ -215,8 +218,7 @@ impl Experiment {
                     () => End::Time,
                 });
             }
-            self.simulation.step()?;
-            self.read_step();
+            self.step()?;
             rest.gate |= self.is_gated() || self.simulation.is_entering();
             recorder.step(&self.simulation)?;
             if meter.strikes(self.simulation.time()) {
