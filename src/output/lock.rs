@@ -68,7 +68,14 @@ impl Lock {
             match if kind == Kind::Shared { file.try_lock_shared() } else { file.try_lock() } {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
-                    let _ = file.read_to_string(&mut who);
+                    // Its owner signs it a moment after it has locked it.
+                    for _ in 0..ATTEMPTS {
+                        let _ = file.read_to_string(&mut who);
+                        if who.ends_with('\n') {
+                            break;
+                        }
+                        std::thread::sleep(Duration::from_millis(2));
+                    }
                     return Err(OutputError::InUse { path, holder: in_words(&who) });
                 }
                 // Some file systems of clusters have no locks: then the text has to do.
